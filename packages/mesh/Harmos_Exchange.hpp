@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_EXCHANGE_HPP
+#define HARMOS_EXCHANGE_HPP
+
+#include <Harmos_Mesh.hpp>
+
+namespace Harmos
+{
+
+/// How ranks talk. The kernels know this interface alone; `parallel` implements it with Tpetra. This base class is
+/// the serial one: every operation is the identity.
+class Exchange
+{
+public:
+  virtual ~Exchange() = default;
+
+  virtual int rank() const { return 0; }
+  virtual int size() const { return 1; }
+
+  virtual double min(double value) const { return value; }
+  virtual double max(double value) const { return value; }
+  /// In-place sums over ranks, in rank order (the same on every rank).
+  virtual void sum(double *, int) const {}
+  virtual void sum(long long *, int) const {}
+
+  /// Rows of items over local cells: give every halo cell of depth <= `depth` its owner's items.
+  ///
+  /// \param offset In: rows over the local cells (num_cells + 1); only owned rows are read. Out: with halo rows; rows
+  ///               of deeper cells are empty.
+  /// \param item   In and out: (items, width) in that order. Serial: unchanged, not copied.
+  virtual void exchangeRows(View<int *> & /*offset*/, View<double **> & /*item*/, int /*depth*/) const {}
+
+  /// Repeat the last pattern: as exchangeRows with offsets that already hold the halo rows; only values travel.
+  virtual void updateRows(View<int *> const & /*offset*/, View<double **> const & /*item*/, int /*depth*/) const {}
+};
+
+/// Order-independent sum: quantised to 2^-62 of `bound` >= sum of |value| over all ranks and items.
+///
+/// Integer addition is associative, so that the result does not depend on ranks, threads or numbering.
+struct ReproducibleSum
+{
+  double scale = 0.0; // quanta per unit
+
+  KOKKOS_INLINE_FUNCTION long long quanta(double value) const { return static_cast<long long>(value * scale); }
+  KOKKOS_INLINE_FUNCTION double value(long long sum) const { return scale > 0.0 ? static_cast<double>(sum) / scale : 0.0; }
+};
+
+/// \param largest Largest |value| over all ranks; \param items number of summands over all ranks (or more).
+inline ReproducibleSum reproducibleSum(double largest, long long items)
+{
+  ReproducibleSum sum;
+  if (largest > 0.0 && items > 0)
+    sum.scale = 4.0e18 / (largest * static_cast<double>(items));
+  return sum;
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_FILLED_REGIONS_HPP
+#define HARMOS_FILLED_REGIONS_HPP
+
+#include <Harmos_CellMaterialPairs.hpp>
+
+namespace Harmos
+{
+
+/// The filled regions of the mixed cells: one convex polygon for every pair of a mixed cell; pure cells store none.
+struct FilledRegions
+{
+  int num_mixed_cells = 0;
+  View<int *> mixed_cell;   // num_mixed_cells: cell, ascending
+  View<int *> cell_region;  // num_cells: first region of the cell's pairs; -1 where the cell is not mixed
+  View<Region *> polygon;   // by cell_region(cell) + (pair - offset(cell)); counter-clockwise
+
+  /// The filled region of a pair, whatever the kind of its cell.
+  KOKKOS_INLINE_FUNCTION Region region(Mesh const &mesh, CellMaterialPairs const &pairs, int pair) const
+  {
+    int const cell = pairs.cell(pair);
+    int const first = cell_region(cell);
+    if (first >= 0)
+      return polygon(first + pair - pairs.offset(cell));
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    Region r;
+    for (int k = 0; k < 4; ++k)
+      r.push(q[k]);
+    return r;
+  }
+};
+
+} // namespace Harmos
+
+#endif

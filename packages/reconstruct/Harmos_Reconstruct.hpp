@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_RECONSTRUCT_HPP
+#define HARMOS_RECONSTRUCT_HPP
+
+#include <Harmos_FilledRegions.hpp>
+
+namespace Harmos
+{
+
+enum class ReconstructionMethod
+{
+  Youngs,
+  MomentOfFluid
+};
+
+struct ReconstructionOptions
+{
+  ReconstructionMethod method = ReconstructionMethod::MomentOfFluid;
+  /// Below this volume fraction the line's normal comes from least squares over the neighbours: centroids of slivers
+  /// are noise.
+  double sliver = 1e-3;
+  /// Fixed order of removal: material numbers, first removed first; void, written -1, is last when not listed.
+  /// Extent 0: all orders are tried by least centroid error (moment-of-fluid), or ascending material number (Youngs).
+  View<int *> order;
+};
+
+struct ReconstructionReport
+{
+  long long failures = 0;      // owned cells whose root search did not reach the volume tolerance (1e-12 of the cell)
+  int first_failed_cell = -1;  // local number
+  double largest_volume_error = 0.0; // of the cell, owned cells
+  long long greedy_cells = 0;  // owned cells with more than five components, ordered greedily
+};
+
+/// Filled regions of all local mixed cells from volume fractions and centroids (method of doc/theory).
+///
+/// Cells of depth mesh.halo use the neighbours that they have (their result is not used by owned cells).
+/// \param report Accumulated counts of owned cells.
+FilledRegions reconstruct(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                          ReconstructionOptions const &options, ReconstructionReport &report);
+
+} // namespace Harmos
+
+#endif
