@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+tribits_package_define_dependencies(
+  LIB_REQUIRED_PACKAGES HarmosGeometry HarmosMesh Teuchos Tpetra
+  LIB_REQUIRED_TPLS MPI METIS
+)

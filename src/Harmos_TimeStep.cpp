@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_TimeStep.hpp"
+
+#include <Harmos_Paint.hpp>
+#include <Harmos_StateExchange.hpp>
+
+namespace Harmos
+{
+namespace
+{
+
+constexpr int most_repeats = 8;
+constexpr double largest_growth = 1.05; // of dt from one cycle to the next
+
+/// Adds the life of a scope to a phase's seconds.
+class PhaseTimer
+{
+public:
+  PhaseTimer(char const *name, double &seconds) : region_(std::string("Harmos::") + name), seconds_(seconds) {}
+  ~PhaseTimer()
+  {
+    ExecutionSpace().fence();
+    seconds_ += timer_.seconds();
+  }
+  PhaseTimer(PhaseTimer const &) = delete;
+  PhaseTimer &operator=(PhaseTimer const &) = delete;
+
+private:
+  ScopedRegion region_;
+  Kokkos::Timer timer_;
+  double &seconds_;
+};
+
+LagrangeWork makeWork(CycleState const &s)
+{
+  using Kokkos::ViewAllocateWithoutInitializing;
+  LagrangeWork work;
+  work.corner_force = View<double *[8]>(ViewAllocateWithoutInitializing("corner_force"), s.pairs.num_pairs);
+  work.dof_mass = View<double *>(ViewAllocateWithoutInitializing("dof_mass"), s.dof_nodes.num_dof_nodes);
+  work.predicted = View<double *[2]>(ViewAllocateWithoutInitializing("predicted"), s.dof_nodes.num_dof_nodes);
+  work.half = View<double *[2]>(ViewAllocateWithoutInitializing("half"), s.dof_nodes.num_dof_nodes);
+  return work;
+}
+
+/// Work of gravity with v_mean = (v^{n-1/2} + v^{n+1/2})/2 on deformable bodies, owned nodes. [J/m]
+double gravityWork(Scene const &scene, CycleState const &s, LagrangeWork const &work, double dt)
+{
+  Vector2 const g = scene.lagrange.gravity;
+  if (g[0] == 0.0 && g[1] == 0.0)
+    return 0.0;
+  auto const owned = scene.mesh.node_owned;
+  auto const dof_nodes = s.dof_nodes;
+  auto const velocity = s.state.velocity;
+  double sum = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::gravityWork", RangePolicy(0, dof_nodes.num_dof_nodes),
+      KOKKOS_LAMBDA(int dof, double &part) {
+        if (owned(dof_nodes.node(dof)) == 1)
+          part += 0.5 * dt * work.dof_mass(dof) *
+                  (g[0] * (velocity(dof, 0) + work.half(dof, 0)) + g[1] * (velocity(dof, 1) + work.half(dof, 1)));
+      },
+      sum);
+  return sum;
+}
+
+/// Free rigid bodies fall; the others keep their motion.
+std::vector<RigidBody> predictBodies(std::vector<RigidBody> bodies, Vector2 const &gravity, double dt)
+{
+  for (RigidBody &body : bodies)
+    if (body.motion == RigidMotion::Free)
+      body.velocity += dt * gravity;
+  return bodies;
+}
+
+void moveBodies(std::vector<RigidBody> &bodies, double dt)
+{
+  for (RigidBody &body : bodies)
+  {
+    body.centre += dt * body.velocity;
+    body.angle += dt * body.angular_velocity;
+  }
+}
+
+RigidRows rigidRows(Scene const &scene, CycleState const &state)
+{
+  RigidRows rows;
+  if (state.bodies.empty())
+    return rows;
+  std::vector<Shape> shapes;
+  std::vector<int> materials;
+  for (std::size_t b = 0; b < state.bodies.size(); ++b)
+  {
+    RigidBody const &start = scene.rigid_start[b];
+    RigidBody const &body = state.bodies[b];
+    shapes.push_back(scene.rigid_shape[b].moved(body.centre - start.centre, body.angle - start.angle));
+    materials.push_back(body.material);
+  }
+  PaintedRows const painted = rigidVolumes(scene.mesh, shapes, materials);
+  rows.offset = painted.offset;
+  rows.material = painted.material;
+  rows.volume_fraction = painted.volume_fraction;
+  rows.centroid = painted.centroid;
+  return rows;
+}
+
+/// Node positions of a body-fitted mesh follow their (only) dof node.
+void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &half, double dt)
+{
+  auto const position = mesh.node_position;
+  Kokkos::parallel_for(
+      "Harmos::moveMesh", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+        int const node = dof_nodes.node(dof);
+        for (int d = 0; d < 2; ++d)
+          position(node, d) += dt * half(dof, d);
+      });
+  updateGeometry(mesh);
+}
+
+} // namespace
+
+void setRigidVelocities(Scene const &scene, CycleState &s)
+{
+  if (s.bodies.empty())
+    return;
+  auto const mesh = scene.mesh;
+  auto const pairs = s.pairs;
+  auto const velocity = s.state.velocity;
+  for (RigidBody const &body : s.bodies)
+  {
+    Kokkos::parallel_for(
+        "Harmos::setRigidVelocities", RangePolicy(0, pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
+          if (pairs.material(pair) != body.material)
+            return;
+          for (int k = 0; k < 4; ++k)
+          {
+            int const node = mesh.cell_node(pairs.cell(pair), k);
+            Vector2 const v = body.velocityAt({mesh.node_position(node, 0), mesh.node_position(node, 1)});
+            velocity(pairs.dof_node(pair, k), 0) = v[0];
+            velocity(pairs.dof_node(pair, k), 1) = v[1];
+          }
+        });
+  }
+}
+
+CycleReport advance(Scene &scene, CycleState &s, FilledRegions &regions, PhaseTimes &times)
+{
+  Exchange const &exchange = *scene.exchange;
+  Mesh const &mesh = scene.mesh;
+  CycleReport report;
+  {
+    PhaseTimer timer("reconstruct", times.reconstruct);
+    regions = reconstruct(mesh, s.pairs, s.state, scene.reconstruction, report.reconstruction);
+  }
+
+  LagrangeWork work = makeWork(s);
+  {
+    PhaseTimer timer("lagrange", times.lagrange);
+    computeCornerForces(mesh, s.pairs, s.state, scene.materials, scene.lagrange, work);
+  }
+
+  PredictionSums prediction;
+  double dt = s.dt;
+  std::vector<RigidBody> const bodies_n = s.bodies;
+  for (;; dt *= 0.5, ++report.repeats)
+  {
+    {
+      PhaseTimer timer("lagrange", times.lagrange);
+      prediction = predictVelocities(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, scene.lagrange, dt, work);
+    }
+    {
+      PhaseTimer timer("constrain", times.constrain);
+      s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, dt);
+      report.constraint = constrainVelocities(mesh, s.pairs, s.dof_nodes, regions, scene.boundary, work.dof_mass, s.state.velocity,
+                                              work.predicted, work.half, bodies_n, s.bodies, dt, scene.constraint, exchange);
+    }
+    PhaseTimer timer("lagrange", times.lagrange);
+    TravelReport const travel = limitTravel(mesh, s.pairs, s.dof_nodes, s.state, scene.lagrange, dt, work);
+    report.light_nodes = travel.light_nodes;
+    if (exchange.max(travel.largest_ratio) <= 1.0 || report.repeats == most_repeats)
+      break;
+  }
+  report.dt = dt;
+  double const gravity_work = gravityWork(scene, s, work, dt);
+
+  TimeStepLimit next;
+  {
+    PhaseTimer timer("lagrange", times.lagrange);
+    report.update = updatePairs(mesh, s.pairs, s.dof_nodes, s.state, scene.materials, scene.lagrange, dt, work, next);
+  }
+  moveBodies(s.bodies, dt);
+
+  if (scene.kinematics == Kinematics::Lagrangian)
+  {
+    PhaseTimer timer("lagrange", times.lagrange);
+    moveMesh(scene.mesh, s.dof_nodes, work.half, dt);
+    Kokkos::deep_copy(s.state.velocity, work.half);
+  }
+  else
+  {
+    RigidRows const rigid = rigidRows(scene, s);
+    {
+      PhaseTimer timer("remap", times.remap);
+      RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, regions, scene.boundary, scene.materials,
+                                 work.half, dt, rigid, scene.remap, report.remap);
+      s.pairs = result.pairs;
+      s.dof_nodes = result.dof_nodes;
+      s.state = result.state;
+    }
+    PhaseTimer timer("exchange", times.exchange);
+    exchangeState(mesh, scene.kinematics, exchange, mesh.halo, s.pairs, s.dof_nodes, s.state);
+    setRigidVelocities(scene, s);
+  }
+
+  s.limit = next;
+  s.dt = Math::min(Math::min(exchange.min(next.dt), scene.max_dt), largest_growth * dt);
+  s.time += dt;
+  ++s.cycle;
+  report.external_work = prediction.wall_work + gravity_work + prediction.driven_work + report.constraint.driven_work;
+  report.external_impulse = prediction.wall_impulse + prediction.gravity_impulse + prediction.driven_impulse + report.constraint.external_impulse;
+  return report;
+}
+
+} // namespace Harmos

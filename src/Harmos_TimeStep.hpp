@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_TIME_STEP_HPP
+#define HARMOS_TIME_STEP_HPP
+
+#include <Harmos_Constrain.hpp>
+#include <Harmos_Lagrange.hpp>
+#include <Harmos_Reconstruct.hpp>
+#include <Harmos_Remap.hpp>
+#include <Harmos_Shape.hpp>
+
+#include <vector>
+
+namespace Harmos
+{
+
+/// What does not change from cycle to cycle. A host code fills it with its own mesh and exchange.
+struct Scene
+{
+  Kinematics kinematics = Kinematics::Xfem;
+  Mesh mesh; // node positions change in lagrangian kinematics
+  BoundaryConditions boundary;
+  View<Material *> materials;
+  std::vector<Shape> rigid_shape; // by rigid body, in its pose at the start
+  std::vector<RigidBody> rigid_start;
+  LagrangeOptions lagrange;
+  ReconstructionOptions reconstruction;
+  ConstraintOptions constraint;
+  RemapOptions remap;
+  double max_dt = 1e300; // [s]
+  Exchange const *exchange = nullptr;
+};
+
+/// What the cycle carries.
+struct CycleState
+{
+  CellMaterialPairs pairs;
+  NodeMaterialPairs dof_nodes;
+  PairState state;
+  std::vector<RigidBody> bodies;
+  double time = 0.0;            // [s], of the records; velocities are half a step behind
+  double dt = 0.0;              // of the next cycle [s]
+  TimeStepLimit limit;          // what sets it
+  long long cycle = 0;
+};
+
+/// Seconds spent in the phases of the cycle, this rank.
+struct PhaseTimes
+{
+  double reconstruct = 0.0;
+  double lagrange = 0.0;
+  double constrain = 0.0;
+  double remap = 0.0;
+  double exchange = 0.0;
+};
+
+/// What one cycle did, summed over ranks; energies and impulses per unit depth.
+struct CycleReport
+{
+  double dt = 0.0;
+  int repeats = 0;              // cycle repeated with half the time step: a node would have outrun its neighbourhood
+  long long light_nodes = 0;    // light dof nodes moved with their pair
+  ReconstructionReport reconstruction;
+  ConstraintReport constraint;
+  UpdateReport update;
+  RemapReport remap;
+  double external_work = 0.0;   // gravity, walls, driven bodies
+  Vector2 external_impulse = {0.0, 0.0};
+  double kinetic_energy = 0.0;  // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
+};
+
+/// Dof velocities of rigid materials from their bodies (single: of every node that a rigid pair touches).
+void setRigidVelocities(Scene const &scene, CycleState &state);
+
+/// One cycle: reconstruct, lagrange, constrain, move, remap (doc/theory). Also fills `regions` with the filled regions
+/// of the state at the *start* of the cycle.
+///
+/// \return What happened; `update.inverted` or `update.not_a_number` above zero, or a failed reconstruction or remap, mean
+///         that the state is no longer to be used: the caller stops the run.
+CycleReport advance(Scene &scene, CycleState &state, FilledRegions &regions, PhaseTimes &times);
+
+} // namespace Harmos
+
+#endif
