@@ -31,20 +31,11 @@ private:
   double &seconds_;
 };
 
-LagrangeWork makeWork(CycleState const &s)
-{
-  using Kokkos::ViewAllocateWithoutInitializing;
-  LagrangeWork work;
-  work.corner_force = View<double *[8]>(ViewAllocateWithoutInitializing("corner_force"), s.pairs.num_pairs);
-  work.dof_mass = View<double *>(ViewAllocateWithoutInitializing("dof_mass"), s.dof_nodes.num_dof_nodes);
-  work.predicted = View<double *[2]>(ViewAllocateWithoutInitializing("predicted"), s.dof_nodes.num_dof_nodes);
-  work.half = View<double *[2]>(ViewAllocateWithoutInitializing("half"), s.dof_nodes.num_dof_nodes);
-  return work;
-}
-
 /// Work of gravity with v_mean = (v^{n-1/2} + v^{n+1/2})/2 on deformable bodies, owned nodes. [J/m]
-double gravityWork(Scene const &scene, CycleState const &s, LagrangeWork const &work, double dt)
+double gravityWork(Scene const &scene, CycleState const &s, double dt)
 {
+  auto const dof_mass = s.work.dof_mass;
+  auto const half = s.work.half;
   Vector2 const g = scene.lagrange.gravity;
   if (g[0] == 0.0 && g[1] == 0.0)
     return 0.0;
@@ -56,8 +47,8 @@ double gravityWork(Scene const &scene, CycleState const &s, LagrangeWork const &
       "Harmos::gravityWork", RangePolicy(0, dof_nodes.num_dof_nodes),
       KOKKOS_LAMBDA(int dof, double &part) {
         if (owned(dof_nodes.node(dof)) == 1)
-          part += 0.5 * dt * work.dof_mass(dof) *
-                  (g[0] * (velocity(dof, 0) + work.half(dof, 0)) + g[1] * (velocity(dof, 1) + work.half(dof, 1)));
+          part += 0.5 * dt * dof_mass(dof) *
+                  (g[0] * (velocity(dof, 0) + half(dof, 0)) + g[1] * (velocity(dof, 1) + half(dof, 1)));
       },
       sum);
   return sum;
@@ -79,6 +70,29 @@ void moveBodies(std::vector<RigidBody> &bodies, double dt)
     body.centre += dt * body.velocity;
     body.angle += dt * body.angular_velocity;
   }
+}
+
+/// Work and impulse from outside, of this cycle, over all ranks; what travel limits took counts as contact loss.
+void bookExternal(Scene const &scene, CycleState const &s, std::vector<RigidBody> const &bodies_n,
+                  PredictionSums const &prediction, TravelReport const &travel, double gravity_work,
+                  CycleReport &report)
+{
+  Vector2 const nodal = prediction.wall_impulse + prediction.gravity_impulse + prediction.driven_impulse +
+                        travel.wall_impulse + report.remap.wall_impulse;
+  double sums[4] = {prediction.wall_work + gravity_work + prediction.driven_work, nodal[0], nodal[1],
+                    travel.energy_loss};
+  scene.exchange->sum(sums, 4);
+  // The constraint's sums, and the bodies, are the same on all ranks already.
+  report.external_work = sums[0] + report.constraint.driven_work;
+  report.external_impulse = Vector2{sums[1], sums[2]} + report.constraint.external_impulse;
+  report.constraint.contact_loss += sums[3];
+  for (std::size_t b = 0; b < s.bodies.size(); ++b)
+    if (s.bodies[b].motion == RigidMotion::Free)
+    {
+      Vector2 const weight = (report.dt * s.bodies[b].mass) * scene.lagrange.gravity;
+      report.external_impulse += weight;
+      report.external_work += 0.5 * dot(weight, bodies_n[b].velocity + s.bodies[b].velocity);
+    }
 }
 
 RigidRows rigidRows(Scene const &scene, CycleState const &state)
@@ -103,15 +117,19 @@ RigidRows rigidRows(Scene const &scene, CycleState const &state)
   return rows;
 }
 
-/// Node positions of a body-fitted mesh follow their (only) dof node.
-void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &half, double dt)
+/// Node positions of a body-fitted mesh follow their (only) dof node; its velocity becomes v^{n+1/2}.
+void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity,
+              View<double *[2]> const &half, double dt)
 {
   auto const position = mesh.node_position;
   Kokkos::parallel_for(
       "Harmos::moveMesh", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
         int const node = dof_nodes.node(dof);
         for (int d = 0; d < 2; ++d)
+        {
           position(node, d) += dt * half(dof, d);
+          velocity(dof, d) = half(dof, d);
+        }
       });
   updateGeometry(mesh);
 }
@@ -142,66 +160,71 @@ void setRigidVelocities(Scene const &scene, CycleState &s)
   }
 }
 
-CycleReport advance(Scene &scene, CycleState &s, FilledRegions &regions, PhaseTimes &times)
+void reconstructState(Scene const &scene, CycleState &s, ReconstructionReport &report)
+{
+  s.regions = reconstruct(scene.mesh, s.pairs, s.state, scene.reconstruction, report);
+}
+
+CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
 {
   Exchange const &exchange = *scene.exchange;
   Mesh const &mesh = scene.mesh;
   CycleReport report;
-  {
-    PhaseTimer timer("reconstruct", times.reconstruct);
-    regions = reconstruct(mesh, s.pairs, s.state, scene.reconstruction, report.reconstruction);
-  }
-
-  LagrangeWork work = makeWork(s);
+  LagrangeWork &work = s.work;
   {
     PhaseTimer timer("lagrange", times.lagrange);
+    prepareWork(s.pairs, s.dof_nodes, work);
     computeCornerForces(mesh, s.pairs, s.state, scene.materials, scene.lagrange, work);
   }
 
   PredictionSums prediction;
+  TravelReport travel;
   double dt = s.dt;
   std::vector<RigidBody> const bodies_n = s.bodies;
   for (;; dt *= 0.5, ++report.repeats)
   {
     {
       PhaseTimer timer("lagrange", times.lagrange);
-      prediction = predictVelocities(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, scene.lagrange, dt, work);
+      prediction = predictVelocities(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials,
+                                     scene.lagrange, dt, work);
     }
     {
       PhaseTimer timer("constrain", times.constrain);
       s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, dt);
-      report.constraint = constrainVelocities(mesh, s.pairs, s.dof_nodes, regions, scene.boundary, work.dof_mass, s.state.velocity,
-                                              work.predicted, work.half, bodies_n, s.bodies, dt, scene.constraint, exchange);
+      report.constraint =
+          constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass, s.state.velocity,
+                              work.predicted, work.half, bodies_n, s.bodies, dt, scene.constraint, exchange);
     }
     PhaseTimer timer("lagrange", times.lagrange);
-    TravelReport const travel = limitTravel(mesh, s.pairs, s.dof_nodes, s.state, scene.lagrange, dt, work);
-    report.light_nodes = travel.light_nodes;
+    travel =
+        limitTravel(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, scene.lagrange, dt, work);
+    report.light_nodes = travel.limited;
     if (exchange.max(travel.largest_ratio) <= 1.0 || report.repeats == most_repeats)
       break;
   }
   report.dt = dt;
-  double const gravity_work = gravityWork(scene, s, work, dt);
+  double const gravity_work = gravityWork(scene, s, dt);
 
   TimeStepLimit next;
   {
     PhaseTimer timer("lagrange", times.lagrange);
-    report.update = updatePairs(mesh, s.pairs, s.dof_nodes, s.state, scene.materials, scene.lagrange, dt, work, next);
+    report.update = updatePairs(mesh, s.pairs, s.state, scene.materials, scene.lagrange, dt, work, next);
   }
   moveBodies(s.bodies, dt);
 
   if (scene.kinematics == Kinematics::Lagrangian)
   {
     PhaseTimer timer("lagrange", times.lagrange);
-    moveMesh(scene.mesh, s.dof_nodes, work.half, dt);
-    Kokkos::deep_copy(s.state.velocity, work.half);
+    moveMesh(scene.mesh, s.dof_nodes, s.state.velocity, work.half, dt);
+    computeNodeAltitudes(mesh, work);
   }
   else
   {
     RigidRows const rigid = rigidRows(scene, s);
     {
       PhaseTimer timer("remap", times.remap);
-      RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, regions, scene.boundary, scene.materials,
-                                 work.half, dt, rigid, scene.remap, report.remap);
+      RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
+                                 scene.materials, work.half, dt, rigid, scene.remap, report.remap);
       s.pairs = result.pairs;
       s.dof_nodes = result.dof_nodes;
       s.state = result.state;
@@ -210,13 +233,16 @@ CycleReport advance(Scene &scene, CycleState &s, FilledRegions &regions, PhaseTi
     exchangeState(mesh, scene.kinematics, exchange, mesh.halo, s.pairs, s.dof_nodes, s.state);
     setRigidVelocities(scene, s);
   }
+  {
+    PhaseTimer timer("reconstruct", times.reconstruct);
+    reconstructState(scene, s, report.reconstruction);
+  }
 
   s.limit = next;
   s.dt = Math::min(Math::min(exchange.min(next.dt), scene.max_dt), largest_growth * dt);
   s.time += dt;
   ++s.cycle;
-  report.external_work = prediction.wall_work + gravity_work + prediction.driven_work + report.constraint.driven_work;
-  report.external_impulse = prediction.wall_impulse + prediction.gravity_impulse + prediction.driven_impulse + report.constraint.external_impulse;
+  bookExternal(scene, s, bodies_n, prediction, travel, gravity_work, report);
   return report;
 }
 

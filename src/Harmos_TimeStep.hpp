@@ -36,10 +36,12 @@ struct CycleState
   CellMaterialPairs pairs;
   NodeMaterialPairs dof_nodes;
   PairState state;
+  FilledRegions regions; // of this state
+  LagrangeWork work;     // scratch, kept from cycle to cycle
   std::vector<RigidBody> bodies;
-  double time = 0.0;            // [s], of the records; velocities are half a step behind
-  double dt = 0.0;              // of the next cycle [s]
-  TimeStepLimit limit;          // what sets it
+  double time = 0.0;   // [s], of the records; velocities are half a step behind
+  double dt = 0.0;     // of the next cycle [s]
+  TimeStepLimit limit; // what sets it
   long long cycle = 0;
 };
 
@@ -57,26 +59,28 @@ struct PhaseTimes
 struct CycleReport
 {
   double dt = 0.0;
-  int repeats = 0;              // cycle repeated with half the time step: a node would have outrun its neighbourhood
-  long long light_nodes = 0;    // light dof nodes moved with their pair
+  int repeats = 0;           // cycle repeated with half the time step: a node would have outrun its neighbourhood
+  long long light_nodes = 0; // light dof nodes moved with their pair
   ReconstructionReport reconstruction;
   ConstraintReport constraint;
   UpdateReport update;
   RemapReport remap;
-  double external_work = 0.0;   // gravity, walls, driven bodies
+  double external_work = 0.0; // gravity, walls, driven bodies
   Vector2 external_impulse = {0.0, 0.0};
-  double kinetic_energy = 0.0;  // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
+  double kinetic_energy = 0.0; // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
 };
 
 /// Dof velocities of rigid materials from their bodies (single: of every node that a rigid pair touches).
 void setRigidVelocities(Scene const &scene, CycleState &state);
 
-/// One cycle: reconstruct, lagrange, constrain, move, remap (doc/theory). Also fills `regions` with the filled regions
-/// of the state at the *start* of the cycle.
+/// Filled regions of the state -> state.regions. Once at the start; every cycle ends with it.
+void reconstructState(Scene const &scene, CycleState &state, ReconstructionReport &report);
+
+/// One cycle: lagrange, constrain, move, remap, and the filled regions of the new state (doc/theory).
 ///
-/// \return What happened; `update.inverted` or `update.not_a_number` above zero, or a failed reconstruction or remap, mean
-///         that the state is no longer to be used: the caller stops the run.
-CycleReport advance(Scene &scene, CycleState &state, FilledRegions &regions, PhaseTimes &times);
+/// \return What happened. `update.inverted` or `update.not_a_number` above zero, or failures of the remap or the
+///         reconstruction, mean that the state is no longer to be used: the caller stops the run.
+CycleReport advance(Scene &scene, CycleState &state, PhaseTimes &times);
 
 } // namespace Harmos
 

@@ -33,6 +33,7 @@ struct ContactRow
   long long key;           // global cell of the slave segment * 64 + its number there: the order of all sums
   int material_a, material_b; // material_b = -1: a contact wall
   int body_a, body_b;      // number of the rigid body, -1: deformable, -2: wall
+  int cell_a, cell_b;      // local cells of the slave segment and of the surface that it faces
   int dof_a[4], dof_b[4];  // dof nodes (deformable sides)
   double weight_a[4], weight_b[4];
   Vector2 point, normal;   // of the slave's midpoint
@@ -63,6 +64,31 @@ struct ConstraintReport
   std::vector<double> body_torque;       // about its centre
   std::vector<PairForce> pair_force;     // (materials + 1)^2, row-major; last index: contact wall
 };
+
+/// \brief Correct the predicted velocities by the impulses of contact (and ties) between all bodies.
+///
+/// Finds impulses p with v = v* + M^-1 P G^T p (P: node conditions) such that every sliding row has
+/// gap/dt + G v >= 0, p >= 0, p (gap/dt + G v) = 0, and every tied row G v = 0 in both directions; G v = n . (v_b - v_a) at
+/// the midpoint of the row's slave segment, n from a to b. The same p acts on both sides: momentum is exact.
+///
+/// \param dof_mass   num_dof_nodes [kg/m]
+/// \param velocity_n v^{n-1/2}, num_dof_nodes [m/s]: for the work of the impulses
+/// \param predicted  v*, with node conditions applied [m/s]
+/// \param half       Out: v^{n+1/2} of all dof nodes; dof nodes of rigid materials get their body's velocity at the node.
+///                   Right at all nodes of cells of depth <= 3.
+/// \param bodies_n   Rigid bodies with the velocities before the cycle.
+/// \param bodies     In: predicted velocities. Out: v^{n+1/2}. Poses are not changed.
+/// \param dt         Of the cycle [s]
+/// \return Sums over all ranks. `converged` is false where the tolerance was not reached: the velocities are then those of
+///         the last iterate, which conserves momentum all the same.
+///
+/// Throws std::runtime_error when a body's material is not one of the interaction table, or dt <= 0.
+ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                                     FilledRegions const &regions, BoundaryConditions const &conditions,
+                                     View<double *> const &dof_mass, View<double *[2]> const &velocity_n,
+                                     View<double *[2]> const &predicted, View<double *[2]> const &half,
+                                     std::vector<RigidBody> const &bodies_n, std::vector<RigidBody> &bodies, double dt,
+                                     ConstraintOptions const &options, Exchange const &exchange);
 
 } // namespace Harmos
 

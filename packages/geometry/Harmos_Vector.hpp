@@ -69,10 +69,16 @@ KOKKOS_INLINE_FUNCTION double dot(Vector<Dim> const &a, Vector<Dim> const &b)
 }
 
 /// z component of a x b.
-KOKKOS_INLINE_FUNCTION double cross(Vector2 const &a, Vector2 const &b) { return a[0] * b[1] - a[1] * b[0]; }
+KOKKOS_INLINE_FUNCTION double cross(Vector2 const &a, Vector2 const &b)
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
 
 /// a turned by +90 degrees.
-KOKKOS_INLINE_FUNCTION Vector2 perpendicular(Vector2 const &a) { return {-a[1], a[0]}; }
+KOKKOS_INLINE_FUNCTION Vector2 perpendicular(Vector2 const &a)
+{
+  return {-a[1], a[0]};
+}
 
 template <int Dim>
 KOKKOS_INLINE_FUNCTION double norm(Vector<Dim> const &a)

@@ -13,27 +13,28 @@ struct LagrangeOptions
 {
   double linear_viscosity = 0.06;
   double quadratic_viscosity = 1.2;
-  double hourglass_viscosity = 0.05; // Flanagan-Belytschko, viscous
+  double hourglass_viscosity = 0.05; // Flanagan-Belytschko, viscous; 0.25 is critical at Courant 1, 0.5 unstable
   Vector2 gravity = {0.0, 0.0};      // [m/s^2]
   double courant = 0.5;
-  double largest_travel = 0.45;      // dt |v| over the smallest altitude of the cells around
-  double light_node = 1e-3;          // dof nodes lighter than this part of a full one do not set the time step
+  double largest_travel = 0.45; // dt |v| over the smallest altitude of the cells around
+  double light_node = 1e-3;     // dof nodes lighter than this part of a full one do not set the time step
 };
 
-/// Work arrays of one Lagrangian step.
+/// Work arrays of one Lagrangian step. Their extents may exceed the numbers of pairs and dof nodes (prepareWork).
 struct LagrangeWork
 {
-  View<double *[8]> corner_force;        // num_pairs: fx, fy of corners 0..3, time level n [N/m]
-  View<double *> dof_mass;               // num_dof_nodes [kg/m]
-  View<double *[2]> predicted;           // num_dof_nodes: v* = v^{n-1/2} + dt a^n, node conditions applied
-  View<double *[2]> half;                // num_dof_nodes: v^{n+1/2}, after the constraints
+  View<double *[8]> corner_force; // num_pairs: fx, fy of corners 0..3, time level n [N/m]
+  View<double *> dof_mass;        // num_dof_nodes [kg/m]
+  View<double *[2]> predicted;    // num_dof_nodes: v* = v^{n-1/2} + dt a^n, node conditions applied
+  View<double *[2]> half;         // num_dof_nodes: v^{n+1/2}, after the constraints
+  View<double *> node_altitude;   // num_nodes: least altitude of the cells around [length]
 };
 
 /// Largest stable time step and the pair that sets it.
 struct TimeStepLimit
 {
   double dt = 0.0;
-  int cell = -1;     // local; -1: none
+  int cell = -1; // local; -1: none
   int material = -1;
 };
 
@@ -43,22 +44,128 @@ struct PredictionSums
   Vector2 wall_impulse = {0.0, 0.0}; // by node conditions on the bodies, sum m (v_bc - v_unconstrained) [N s/m]
   double wall_work = 0.0;            // that impulse . v_mean, v_mean with the predicted velocity [J/m]
   Vector2 gravity_impulse = {0.0, 0.0};
-  double gravity_work = 0.0;
+  double gravity_work = 0.0;           // sum m g dt . v_mean with the predicted velocity: constraints add dt g . J / 2,
+                                       // J their external impulse [J/m]
+  Vector2 driven_impulse = {0.0, 0.0}; // single: by which rigid materials hold shared nodes [N s/m]
+  double driven_work = 0.0;            // that impulse . velocity [J/m]
 };
 
 /// First trouble of a Lagrangian update.
 struct UpdateReport
 {
-  long long inverted = 0;      // owned pairs whose moved cell has a non-positive corner area
-  long long not_a_number = 0;  // owned pairs with a NaN, or a negative specific volume
-  int cell = -1;               // the first such (lowest local number), with its material
+  long long inverted = 0;     // owned pairs whose moved cell has a non-positive corner area
+  long long not_a_number = 0; // owned pairs with a NaN, or a non-positive specific volume
+  long long out_of_range = 0; // owned pairs past the equation of state's range (eosInRange)
+  int cell = -1;              // the first inverted or not-a-number one (lowest local number), with its material
   int material = -1;
 };
 
-/// Internal forces of all deformable pairs: f_I = -m sv (B_I^T (s - (p + q) 1)) + hourglass, B_I the mean-quadrature
-/// gradient of the whole cell.
+/// What limitTravel found and did.
+struct TravelReport
+{
+  long long limited = 0; // owned light dof nodes that were slowed to their pair's mean velocity
+  double largest_ratio =
+      0.0; // afterwards: largest dt |v| / (0.9 altitude) of local dof nodes; > 1: repeat with dt / ratio
+  Vector2 wall_impulse = {0.0, 0.0}; // taken by node conditions in doing so
+  double energy_loss = 0.0;          // kinetic energy removed; the ledger counts it as contact loss [J/m]
+};
+
+/// Totals over the owned nodes at one velocity (deformable materials: rigid ones have no nodal mass).
+struct KineticSums
+{
+  double mass = 0.0;
+  Vector2 momentum = {0.0, 0.0};
+  double angular_momentum = 0.0; // about the origin
+  double kinetic_energy = 0.0;
+};
+
+/// Columns of MaterialSums.
+enum MaterialSum : int
+{
+  SumMass = 0,
+  SumVolume, // geometric: volume fraction * cell area
+  SumMomentumX,
+  SumMomentumY,
+  SumAngularMomentum, // about the origin
+  SumKineticEnergy,   // sum over corners of mass / 4 |v|^2 / 2
+  SumInternalEnergy,
+  PlasticStrainMax,
+  num_material_sums
+};
+
+/// (materials, num_material_sums), over owned pairs, rigid ones included.
+using MaterialSums = Kokkos::View<double **, Kokkos::LayoutRight, Kokkos::HostSpace>;
+
+/// Size the work arrays for a set of pairs and dof nodes; grows only, contents are lost where it grows.
+void prepareWork(CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes, LagrangeWork &work);
+
+/// Least altitude of the cells around each node -> work.node_altitude; once, and whenever the nodes have moved.
+void computeNodeAltitudes(Mesh const &mesh, LagrangeWork &work);
+
+/// Lumped mass of the dof nodes: a quarter of each deformable pair's mass to its four, gathered in the order of
+/// mesh.node_cell. Rigid materials give none. predictVelocities does the same on its way.
+void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                    PairState const &state, View<Material *> const &materials, LagrangeWork &work);
+
+/// Corner forces of all deformable pairs (on the nodes) -> work.corner_force; rigid pairs: zero.
+///
+/// f_I = - m sv (s - (p + q) 1) B_I + hourglass, B_I the mean-quadrature gradient of the whole cell at x^n.
+/// Viscosity in compression (theta = tr D < 0, at v^{n-1/2}): q = rho (c1 c L |theta| + c2 L^2 theta^2), L^2 the cell's
+/// area, c the longitudinal sound speed. Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C = kappa m c / (4 L),
+/// gamma_I = Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1): orthogonal to linear fields.
+/// Flanagan & Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann & Richtmyer, J. Appl. Phys. 21
+/// (1950) 232; Landshoff, LA-1930 (1955).
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work);
+
+/// v* = v^{n-1/2} + dt (f / m + g), node conditions applied -> work.predicted; lumped mass -> work.dof_mass.
+///
+/// A dof node that a rigid material moves (its own one; where all materials share it, any around it) keeps its
+/// velocity. \return Sums over owned nodes.
+PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                                 PairState const &state, BoundaryConditions const &boundary,
+                                 View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                                 LagrangeWork &work);
+
+/// Keep every dof node within 0.9 of the least altitude of the cells around: dt |v_half| <= 0.9 altitude.
+///
+/// A light dof node (below options.light_node of a full one) that would not takes the mean velocity of the heaviest
+/// pair around it; that pair's other nodes take up the difference of momentum. A heavy one is reported by the largest
+/// ratio. Where nothing is wrong (nearly always) one pass over the dof nodes is all. Uses work.node_altitude, dof_mass,
+/// predicted.
+TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                         PairState const &state, BoundaryConditions const &boundary, View<Material *> const &materials,
+                         LagrangeOptions const &options, double dt, LagrangeWork &work);
+
+/// Advance the records of the deformable pairs to t^{n+1}, in place, with v_half = work.half and
+/// v_mean = (state.velocity + v_half) / 2:
+/// m (e' - e) = - dt sum_I f_I . v_mean_I; sv' = sv A'/A; strain and spin from the mean-quadrature gradient at
+/// mid-step; deviator rotated (Hughes-Winget), 2 G dev(D) dt added, returned to the yield surface.
+///
+/// \param next The stable step of the new state, as stableTimeStep at v_half and x'.
+UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                         View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                         LagrangeWork const &work, TimeStepLimit &next);
+
+/// Largest stable step of the owned pairs at state.velocity and x^n (needs work.dof_mass); ties: the lowest pair.
+///
+/// dt = courant l / (Q + sqrt(Q^2 + c^2)), Q = (c1 c L + c2 L^2 max(-theta, 0)) / l, l = area / longest mid-line: the
+/// altitude of a parallelogram. There the scheme's fastest plane wave has omega = 2 c / l exactly, whatever its
+/// direction; and dt <= largest_travel l / |v| over the dof nodes that are not light. Rigid pairs: travel alone.
+/// A free fragment of a single cell without shear stiffness is stable to courant = 0.7 only.
+/// No pair at all: dt = +infinity, cell -1.
+TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                             View<Material *> const &materials, LagrangeOptions const &options,
+                             LagrangeWork const &work);
+
+/// Mass, momentum and kinetic energy of the owned nodes at a velocity (extent >= num_dof_nodes).
+KineticSums kineticSums(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *> const &dof_mass,
+                        View<double *[2]> const &velocity);
+
+/// Sums by material over the owned pairs at a velocity. The same bits for any number of threads.
+MaterialSums materialSums(Mesh const &mesh, CellMaterialPairs const &pairs,
+                          View<double *[num_pair_fields]> const &record, View<double *[2]> const &velocity,
+                          int num_materials);
 
 } // namespace Harmos
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CONTACT_ROWS_HPP
+#define HARMOS_CONTACT_ROWS_HPP
+
+#include <Harmos_Constrain.hpp>
+#include <Harmos_RayCast.hpp>
+
+namespace Harmos
+{
+
+/// Contact rows of this rank, by key: its own (slave cell of depth 0), and after exchangeContactRows those of its halo.
+struct ContactRows
+{
+  int count = 0;
+  int num_own = 0;
+  View<ContactRow *> row;
+  View<int *> own;    // num_own: the rows whose slave cell is owned, ascending
+  View<int *> offset; // num_cells + 1, rows by slave cell; only with more than one rank
+};
+
+/// Rigid bodies as the kernels see them.
+struct BodyTable
+{
+  View<int *> of_material; // materials: number of the body, -1: deformable
+  View<RigidBody *> body;
+
+  /// Fixed and prescribed bodies, and walls: what no impulse moves.
+  KOKKOS_INLINE_FUNCTION bool driven(int number) const
+  {
+    return number == -2 || (number >= 0 && body(number).motion != RigidMotion::Free);
+  }
+};
+
+BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials);
+
+/// One row for every owned slave segment that carries one.
+///
+/// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row: on
+/// segments shorter than shortest_segment, on cell faces exposed by less than exposed_face, between driven bodies, between
+/// sides that share their dof nodes, and where the segment's own normal is over 45 degrees off the fitted one.
+ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                             InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
+                             BodyTable const &bodies, ConstraintOptions const &options);
+
+/// Give every rank the rows of its halo to depth 3. With one rank: nothing.
+void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
+                         Exchange const &exchange, ContactRows &rows);
+
+} // namespace Harmos
+
+#endif

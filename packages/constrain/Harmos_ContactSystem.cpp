@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ContactSystem.hpp>
+
+namespace Harmos
+{
+
+namespace
+{
+
+/// Number the dof nodes that rows touch and list the rows at each, in key order.
+void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &system)
+{
+  View<ContactRow *> const row = rows.row;
+  View<int *> const uses("Harmos::constrain::dof_uses", num_dof_nodes);
+  View<int *> const place("Harmos::constrain::dof_place", num_dof_nodes);
+  Kokkos::parallel_for(
+      "Harmos::constrain::countUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
+        for (int k = 0; k < 8; ++k)
+        {
+          int const dof = k < 4 ? row(r).dof_a[k] : row(r).dof_b[k - 4];
+          if (dof >= 0)
+            Kokkos::atomic_increment(&uses(dof));
+        }
+      });
+  Kokkos::parallel_scan(
+      "Harmos::constrain::numberDofs", RangePolicy(0, num_dof_nodes),
+      KOKKOS_LAMBDA(int i, int &sum, bool final) {
+        int const used = uses(i) > 0 ? 1 : 0;
+        if (final)
+          place(i) = used ? sum : -1;
+        sum += used;
+      },
+      system.num_dofs);
+  View<int *> const dof_node("Harmos::constrain::contact_dof_node", system.num_dofs);
+  View<int *> const offset("Harmos::constrain::rows_of_offset", system.num_dofs + 1);
+  View<int *> const filled("Harmos::constrain::rows_of_filled", system.num_dofs);
+  Kokkos::parallel_for(
+      "Harmos::constrain::listDofs", RangePolicy(0, num_dof_nodes), KOKKOS_LAMBDA(int i) {
+        if (place(i) < 0)
+          return;
+        dof_node(place(i)) = i;
+        offset(place(i) + 1) = uses(i);
+      });
+  int entries = 0;
+  Kokkos::parallel_scan(
+      "Harmos::constrain::scanUses", RangePolicy(0, system.num_dofs + 1),
+      KOKKOS_LAMBDA(int i, int &sum, bool final) {
+        sum += offset(i);
+        if (final)
+          offset(i) = sum;
+      },
+      entries);
+  View<int *> const item("Harmos::constrain::rows_of", entries);
+  View<int *[8]> const compact("Harmos::constrain::row_dof", rows.count);
+  Kokkos::parallel_for(
+      "Harmos::constrain::fillUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
+        for (int k = 0; k < 8; ++k)
+        {
+          int const dof = k < 4 ? row(r).dof_a[k] : row(r).dof_b[k - 4];
+          compact(r, k) = dof >= 0 ? place(dof) : -1;
+          if (dof >= 0)
+            item(offset(place(dof)) + Kokkos::atomic_fetch_add(&filled(place(dof)), 1)) = 8 * r + k;
+        }
+      });
+  Kokkos::parallel_for(
+      "Harmos::constrain::sortUses", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
+        for (int e = offset(i) + 1; e < offset(i + 1); ++e)
+          for (int j = e; j > offset(i) && item(j - 1) > item(j); --j)
+          {
+            int const swap = item(j);
+            item(j) = item(j - 1);
+            item(j - 1) = swap;
+          }
+      });
+  system.dof_node = dof_node;
+  system.dof = compact;
+  system.rows_of = {offset, item};
+}
+
+/// Masses and node conditions of the contact dofs.
+void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions, View<double *> const &dof_mass,
+                ContactSystem &system)
+{
+  View<double *> const inverse_mass("Harmos::constrain::inverse_mass", system.num_dofs);
+  View<NodeCondition *> const condition("Harmos::constrain::condition", system.num_dofs);
+  View<int *> const dof_node = system.dof_node;
+  Kokkos::parallel_for(
+      "Harmos::constrain::gatherDofs", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
+        int const dof = dof_node(i);
+        inverse_mass(i) = 1.0 / dof_mass(dof);
+        int const index = conditions.node_index(dof_nodes.node(dof));
+        NodeCondition const none;
+        condition(i) = index >= 0 ? conditions.condition(index) : none;
+      });
+  system.inverse_mass = inverse_mass;
+  system.condition = condition;
+}
+
+/// Compact numbers of the free bodies; -1 for others.
+View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem &system)
+{
+  View<int *> const number("Harmos::constrain::free_number", bodies.size());
+  auto const host = Kokkos::create_mirror_view(number);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+  {
+    host(b) = bodies[b].motion == RigidMotion::Free ? system.num_free++ : -1;
+    if (host(b) >= 0)
+      system.free_number.push_back(static_cast<int>(b));
+  }
+  Kokkos::deep_copy(number, host);
+  system.body_inverse_mass = View<double *[3]>("Harmos::constrain::body_inverse_mass", system.num_free);
+  auto const inverse = Kokkos::create_mirror_view(system.body_inverse_mass);
+  for (int f = 0; f < system.num_free; ++f)
+  {
+    RigidBody const &body = bodies[static_cast<std::size_t>(system.free_number[static_cast<std::size_t>(f)])];
+    inverse(f, 0) = inverse(f, 1) = body.inverseMass();
+    inverse(f, 2) = body.inverseInertia();
+  }
+  Kokkos::deep_copy(system.body_inverse_mass, inverse);
+  return number;
+}
+
+/// What the rows know: weights, directions, bodies and the predicted relative velocities.
+void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyTable const &table,
+              View<int *> const &free_number, double dt, ContactSystem &system)
+{
+  system.tied = View<int *>("Harmos::constrain::tied", rows.count);
+  system.normal = View<double *[2]>("Harmos::constrain::row_normal", rows.count);
+  system.weight = View<double *[8]>("Harmos::constrain::row_weight", rows.count);
+  system.predicted = View<double *[2]>("Harmos::constrain::row_predicted", rows.count);
+  system.free_body = View<int *[2]>("Harmos::constrain::row_body", rows.count);
+  system.arm = View<double *[4]>("Harmos::constrain::row_arm", rows.count);
+  ContactSystem const s = system;
+  View<ContactRow *> const row = rows.row;
+  Kokkos::parallel_for(
+      "Harmos::constrain::fillRows", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) {
+        ContactRow const &r = row(i);
+        s.tied(i) = r.tied;
+        Vector2 relative{0.0, 0.0};
+        for (int side = 0; side < 2; ++side)
+        {
+          double const sign = side == 0 ? -1.0 : 1.0;
+          int const body = side == 0 ? r.body_a : r.body_b;
+          Vector2 const point = side == 0 ? r.point : r.point + r.gap * r.normal;
+          for (int k = 0; k < 4; ++k)
+          {
+            int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
+            double const w = dof >= 0 ? sign * (side == 0 ? r.weight_a[k] : r.weight_b[k]) : 0.0;
+            s.weight(i, 4 * side + k) = w;
+            if (dof >= 0)
+              relative += w * Vector2{predicted(dof, 0), predicted(dof, 1)};
+          }
+          s.free_body(i, side) = body >= 0 ? free_number(body) : -1;
+          Vector2 arm{0.0, 0.0};
+          if (body >= 0)
+          {
+            relative += sign * table.body(body).velocityAt(point);
+            arm = point - table.body(body).centre;
+          }
+          s.arm(i, 2 * side) = arm[0];
+          s.arm(i, 2 * side + 1) = arm[1];
+          s.normal(i, side) = r.normal[side];
+        }
+        s.predicted(i, 0) = dot(r.normal, relative) + (r.tied ? 0.0 : Math::max(r.gap, 0.0) / dt);
+        s.predicted(i, 1) = r.tied ? dot(perpendicular(r.normal), relative) : 0.0;
+      });
+}
+
+/// Row sums of |G M^-1 P G^T| over the deformable dofs: they bound its spectrum in the metric of the diagonal
+/// (Gershgorin). A row between rigid bodies has none: its own diagonal entry serves.
+KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
+{
+  Vector2 const d = s.direction(row, k);
+  double sum = 0.0;
+  for (int c = 0; c < 8; ++c)
+  {
+    int const dof = s.dof(row, c);
+    if (dof < 0)
+      continue;
+    Vector2 const u = s.condition(dof).project(d);
+    double at_dof = 0.0;
+    for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
+    {
+      int const other = s.rows_of.item(e) / 8;
+      double const w = Math::fabs(s.weight(other, s.rows_of.item(e) % 8));
+      for (int l = 0; l < s.directions(other); ++l)
+        at_dof += w * Math::fabs(dot(u, s.direction(other, l)));
+    }
+    sum += Math::fabs(s.weight(row, c)) * s.inverse_mass(dof) * at_dof;
+  }
+  if (sum > 0.0)
+    return sum;
+  for (int side = 0; side < 2; ++side)
+    for (int c = 0; c < 3; ++c)
+    {
+      int const body = s.free_body(row, side);
+      double const j = s.bodyJacobian(row, side, k, c);
+      sum += body >= 0 ? j * j * s.body_inverse_mass(body, c) : 0.0;
+    }
+  return sum > 0.0 ? sum : 1.0; // a row that nothing can move: its impulse is without effect
+}
+
+} // namespace
+
+ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
+                                 BoundaryConditions const &conditions, View<double *> const &dof_mass,
+                                 View<double *[2]> const &predicted, BodyTable const &table,
+                                 std::vector<RigidBody> const &bodies, double dt, Exchange const &exchange)
+{
+  ContactSystem system;
+  system.num_rows = rows.count;
+  system.num_own = rows.num_own;
+  system.own = rows.own;
+  numberDofs(rows, dof_nodes.num_dof_nodes, system);
+  gatherDofs(dof_nodes, conditions, dof_mass, system);
+  View<int *> const free_number = numberFreeBodies(bodies, system);
+  fillRows(rows, predicted, table, free_number, dt, system);
+  system.diagonal = View<double *[2]>("Harmos::constrain::diagonal", rows.count);
+  ContactSystem const s = system;
+  long long multipliers = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::rowSums", RangePolicy(0, rows.num_own),
+      KOKKOS_LAMBDA(int i, long long &count) {
+        int const row = s.own(i);
+        for (int k = 0; k < s.directions(row); ++k)
+          s.diagonal(row, k) = rowSum(s, row, k);
+        count += s.directions(row);
+      },
+      multipliers);
+  exchange.sum(&multipliers, 1);
+  system.num_multipliers = multipliers;
+  return system;
+}
+
+void velocityChange(ContactSystem const &system, View<double *[2]> const &impulse, View<double *[2]> const &change)
+{
+  ContactSystem const s = system;
+  Kokkos::parallel_for(
+      "Harmos::constrain::velocityChange", RangePolicy(0, s.num_dofs), KOKKOS_LAMBDA(int i) {
+        Vector2 f{0.0, 0.0};
+        for (int e = s.rows_of.offset(i); e < s.rows_of.offset(i + 1); ++e)
+        {
+          int const row = s.rows_of.item(e) / 8;
+          Vector2 const n{s.normal(row, 0), s.normal(row, 1)};
+          f += s.weight(row, s.rows_of.item(e) % 8) * (impulse(row, 0) * n + impulse(row, 1) * perpendicular(n));
+        }
+        f = s.condition(i).project(f);
+        change(i, 0) = s.inverse_mass(i) * f[0];
+        change(i, 1) = s.inverse_mass(i) * f[1];
+      });
+}
+
+namespace
+{
+
+/// Impulse of one row on component c of a free body.
+KOKKOS_INLINE_FUNCTION double bodyImpulse(ContactSystem const &s, View<double *[2]> const &impulse, int row, int body,
+                                          int c)
+{
+  double sum = 0.0;
+  for (int side = 0; side < 2; ++side)
+    if (s.free_body(row, side) == body)
+      for (int k = 0; k < s.directions(row); ++k)
+        sum += impulse(row, k) * s.bodyJacobian(row, side, k, c);
+  return sum;
+}
+
+} // namespace
+
+void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &impulse, Exchange const &exchange,
+                        View<double *[3]> const &change)
+{
+  ContactSystem const s = system;
+  auto const host = Kokkos::create_mirror_view(change);
+  auto const inverse = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.body_inverse_mass);
+  for (int body = 0; body < s.num_free; ++body)
+    for (int c = 0; c < 3; ++c)
+    {
+      double largest = 0.0;
+      Kokkos::parallel_reduce(
+          "Harmos::constrain::largestBodyImpulse", RangePolicy(0, s.num_own),
+          KOKKOS_LAMBDA(int i, double &l) {
+            l = Math::max(l, Math::fabs(bodyImpulse(s, impulse, s.own(i), body, c)));
+          },
+          Kokkos::Max<double>(largest));
+      largest = exchange.max(s.num_own > 0 ? largest : 0.0);
+      ReproducibleSum const sum = reproducibleSum(largest, s.num_multipliers);
+      long long quanta = 0;
+      Kokkos::parallel_reduce(
+          "Harmos::constrain::sumBodyImpulse", RangePolicy(0, s.num_own),
+          KOKKOS_LAMBDA(int i, long long &q) { q += sum.quanta(bodyImpulse(s, impulse, s.own(i), body, c)); }, quanta);
+      exchange.sum(&quanta, 1);
+      host(body, c) = inverse(body, c) * sum.value(quanta);
+    }
+  Kokkos::deep_copy(change, host);
+}
+
+} // namespace Harmos

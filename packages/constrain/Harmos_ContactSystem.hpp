@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CONTACT_SYSTEM_HPP
+#define HARMOS_CONTACT_SYSTEM_HPP
+
+#include <Harmos_ContactRows.hpp>
+
+namespace Harmos
+{
+
+/// The complementarity problem of the contact rows, without a matrix.
+///
+/// A row has two directions, d(row, 0) = n and, where tied, d(row, 1) = perpendicular(n), and an impulse p for each.
+/// Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*), b = G v* + max(gap, 0)/dt (tied: no gap).
+/// Dof nodes that rows touch are numbered compactly; rows_of gathers in key order.
+struct ContactSystem
+{
+  int num_rows = 0; // with the halo's
+  int num_own = 0;
+  int num_dofs = 0;      // dof nodes that rows touch
+  int num_free = 0;      // free rigid bodies
+  long long num_multipliers = 0; // over all ranks
+
+  View<int *> own;               // num_own: rows
+  View<int *> tied;              // num_rows
+  View<double *[2]> normal;      // num_rows
+  View<int *[8]> dof;            // num_rows: compact dof of side a's corners (0..3) and b's (4..7), -1: none
+  View<double *[8]> weight;      // num_rows: signed shape functions, - for a, + for b
+  View<double *[2]> predicted;   // num_rows: b
+  View<double *[2]> diagonal;    // num_rows: row sums of |G M^-1 P G^T|, deformable part; own rows
+  View<int *[2]> free_body;      // num_rows: free body of side a, b: its compact number, -1: none
+  View<double *[4]> arm;         // num_rows: point - centre of the body of side a, of side b
+
+  View<int *> dof_node;          // num_dofs
+  View<double *> inverse_mass;   // num_dofs
+  View<NodeCondition *> condition; // num_dofs
+  Rows rows_of;                  // compact dof -> 8 * row + corner, ascending
+
+  View<double *[3]> body_inverse_mass; // num_free: 1/m, 1/m, 1/I
+  std::vector<int> free_number;  // num_free: number of the body
+
+  KOKKOS_INLINE_FUNCTION int directions(int row) const { return 1 + tied(row); }
+
+  KOKKOS_INLINE_FUNCTION Vector2 direction(int row, int k) const
+  {
+    Vector2 const n{normal(row, 0), normal(row, 1)};
+    return k == 0 ? n : perpendicular(n);
+  }
+
+  /// Derivative of the row's velocity along direction k with respect to component c (Vx, Vy, omega) of a side's body.
+  KOKKOS_INLINE_FUNCTION double bodyJacobian(int row, int side, int k, int c) const
+  {
+    Vector2 const d = direction(row, k);
+    double const sign = side == 0 ? -1.0 : 1.0;
+    Vector2 const r{arm(row, 2 * side), arm(row, 2 * side + 1)};
+    return sign * (c < 2 ? d[c] : cross(r, d));
+  }
+};
+
+/// \param predicted v* of all dof nodes; \param bodies Rigid bodies with predicted velocities.
+/// Collective.
+ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
+                                 BoundaryConditions const &conditions, View<double *> const &dof_mass,
+                                 View<double *[2]> const &predicted, BodyTable const &table,
+                                 std::vector<RigidBody> const &bodies, double dt, Exchange const &exchange);
+
+/// Change of the dof velocities by impulses: M^-1 P G^T p. [m/s]
+/// \param impulse num_rows (halo rows included); \param change num_dofs
+void velocityChange(ContactSystem const &system, View<double *[2]> const &impulse, View<double *[2]> const &change);
+
+/// Change of the free bodies' velocities (Vx, Vy, omega) by impulses of all ranks' rows; the same bits on every rank.
+/// \param change num_free. Collective when num_free > 0.
+void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &impulse, Exchange const &exchange,
+                        View<double *[3]> const &change);
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_INTERFACE_SEGMENTS_HPP
+#define HARMOS_INTERFACE_SEGMENTS_HPP
+
+#include <Harmos_BoundaryConditions.hpp>
+#include <Harmos_FilledRegions.hpp>
+
+namespace Harmos
+{
+
+/// Segments of one cell are numbered below this; key = global cell * max_cell_segments + number.
+constexpr int max_cell_segments = 64;
+
+/// A straight piece of a filled region's boundary that does not face the same material, or of a contact wall.
+struct InterfaceSegment
+{
+  Vector2 midpoint;
+  Vector2 normal;      // unit; leaves the region (a wall's: points into the domain)
+  Vector2 cell_centre; // mean of the cell's corners
+  Vector2 lattice[2];  // d . lattice[i] counts the cells in a distance d along the cell's i-th direction [1/length]
+  double length;       // [length]
+  double cell_size;    // sqrt of the cell's area [length]
+  double exposed;      // part of its cell face that this region exposes, in [0, 1]; 1 inside a cell
+  int cell;
+  int number;   // within the cell
+  int pair;     // -1: wall
+  int material; // -1: wall
+  int face;     // of the cell; -1: an interface inside the cell
+};
+
+/// All segments of this rank, ordered by cell and number within the cell (so by key).
+struct InterfaceSegments
+{
+  int count = 0;
+  View<InterfaceSegment *> segment;
+};
+
+/// The boundaries of the filled regions: interface edges inside mixed cells, and the exposed parts of cell faces, which
+/// are the parts of a region's edge on a face that the same material's region does not cover across the face.
+///
+/// An edge is split where the material beyond it changes (void counts). Contact walls are segments of material -1; a
+/// region's edge on one is exposed; other domain boundaries carry nothing; a face with neither neighbour nor boundary is a
+/// free surface. Cells of depth mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
+///
+/// Cost: one comparison of a few integers a cell, the rest follows the interfaces.
+/// Throws std::runtime_error when a cell has more than max_cell_segments.
+InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+                                        BoundaryConditions const &conditions);
+
+} // namespace Harmos
+
+#endif

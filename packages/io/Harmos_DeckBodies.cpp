@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_DeckBodies.hpp>
+
+#include <Harmos_EquationOfState.hpp>
+
+#include <Teuchos_Array.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Harmos
+{
+
+namespace
+{
+
+using Teuchos::ParameterList;
+
+/// Whether the body's bounding box (half-plane: its inside) reaches into the mesh.
+bool reachesMesh(ShapeSpec const &shape, AxisSpec const &x, AxisSpec const &y)
+{
+  Vector2 const center = shape.reference();
+  if (shape.kind == ShapeKind::HalfPlane)
+  {
+    double const c = std::cos(shape.angle), s = std::sin(shape.angle);
+    Vector2 const normal = {c * shape.normal[0] - s * shape.normal[1], s * shape.normal[0] + c * shape.normal[1]};
+    double lowest = std::numeric_limits<double>::infinity();
+    for (double px : {x.from, x.to})
+      for (double py : {y.from, y.to})
+        lowest = std::min(lowest, dot(normal, Vector2{px, py} - center));
+    return lowest < 0.0;
+  }
+  Vector2 low = center - Vector2{shape.outer_radius, shape.outer_radius};
+  Vector2 high = center + Vector2{shape.outer_radius, shape.outer_radius};
+  for (Vector2 const &p : outlinePoints(shape))
+    for (int d = 0; d < 2; ++d)
+    {
+      low[d] = std::min(low[d], p[d]);
+      high[d] = std::max(high[d], p[d]);
+    }
+  return low[0] < x.to && high[0] > x.from && low[1] < y.to && high[1] > y.from;
+}
+
+void convertMotion(DeckChecker const &check, ParameterList const &list, std::string const &path, Deck const &deck,
+                   BodySpec &body)
+{
+  bool const rigid = deck.laws[body.law].rigid;
+  if (list.isParameter("motion"))
+  {
+    std::string const motion = list.get<std::string>("motion");
+    check.require(rigid, keyPath(path, "motion"),
+                  "belongs to rigid bodies, and " + deck.laws[body.law].name + " is no rigid law");
+    body.motion = motion == "free"         ? RigidMotion::Free
+                  : motion == "prescribed" ? RigidMotion::Prescribed
+                                           : RigidMotion::Fixed;
+  }
+  if (!rigid)
+    return;
+  bool const moves = body.velocity[0] != 0.0 || body.velocity[1] != 0.0 || body.angular_velocity != 0.0;
+  check.require(body.motion != RigidMotion::Fixed || !moves, keyPath(path, "motion"),
+                "a fixed body has no velocity; expected: prescribed or free");
+  check.require(body.motion != RigidMotion::Free || deck.kinematics != Kinematics::Single, keyPath(path, "motion"),
+                "a free rigid body needs a velocity field of its own, which kinematics single has not; expected: "
+                "fixed or prescribed, or another kinematics");
+  check.require(body.motion != RigidMotion::Free || body.shape.kind != ShapeKind::HalfPlane, keyPath(path, "motion"),
+                "a half-plane has no finite mass; expected: fixed or prescribed");
+  for (char const *key : {"internal_energy", "pressure"})
+    check.require(!list.isParameter(key), keyPath(path, key), "means nothing for a rigid body");
+}
+
+/// Convex blocks of four corners only; default cells from the mean size of the mesh's.
+void convertBlock(DeckChecker const &check, ParameterList const &list, std::string const &path, Deck const &deck,
+                  BodySpec &body)
+{
+  if (list.isParameter("cells"))
+  {
+    auto const &cells = list.get<Teuchos::Array<double>>("cells");
+    for (int d = 0; d < 2; ++d)
+    {
+      check.require(cells[d] == std::floor(cells[d]), keyPath(path, "cells"), "expected: two integers");
+      body.cells[d] = static_cast<int>(cells[d]);
+    }
+  }
+  if (deck.kinematics != Kinematics::Lagrangian)
+    return;
+  std::vector<Vector2> const corners = outlinePoints(body.shape);
+  check.require(corners.size() == 4, keyPath(path, "shape"),
+                "kinematics lagrangian meshes blocks; expected: a rectangle or a polygon of four corners");
+  for (int k = 0; k < 4; ++k)
+    check.require(cross(corners[(k + 1) % 4] - corners[k], corners[(k + 2) % 4] - corners[k]) > 0.0,
+                  keyPath(path, "points"), "a lagrangian block must be convex");
+  check.require(!body.cut, keyPath(path, "cut"), "kinematics lagrangian cannot cut blocks");
+  if (list.isParameter("cells"))
+    return;
+  double const size[2] = {(deck.x.to - deck.x.from) / deck.x.cells, (deck.y.to - deck.y.from) / deck.y.cells};
+  for (int d = 0; d < 2; ++d)
+  {
+    Vector2 const a = corners[d + 1] - corners[d], b = corners[(d + 3) % 4] - corners[d + 2];
+    double const length = 0.5 * (std::hypot(a[0], a[1]) + std::hypot(b[0], b[1]));
+    body.cells[d] = static_cast<int>(std::max(1L, std::lround(length / size[d])));
+  }
+}
+
+void assignField(DeckChecker const &check, ParameterList const &list, std::string const &path, Deck &deck,
+                 BodySpec &body)
+{
+  if (!list.isParameter("join"))
+  {
+    body.field = static_cast<int>(deck.fields.size());
+    int const rigid_body = deck.laws[body.law].rigid ? deck.num_rigid_bodies++ : -1;
+    deck.fields.push_back({body.name, body.law, rigid_body});
+    return;
+  }
+  std::string const where = keyPath(path, "join");
+  std::string const name = list.get<std::string>("join");
+  check.require(!deck.bodies.empty(), where, "the first body has none before it to join");
+  BodySpec const &other = deck.bodies[requireIndex(check, deck.bodies, name, where, "earlier body")];
+  check.require(other.law == body.law, where,
+                "\"" + name + "\" has the law " + deck.laws[other.law].name + ", not " + deck.laws[body.law].name +
+                    "; joined bodies share one law");
+  check.require(!deck.laws[body.law].rigid, where, "rigid bodies cannot be joined");
+  body.field = other.field;
+}
+
+/// Density at which a law whose pressure does not depend on energy has a pressure: Newton from the reference state.
+double densityAtPressure(Material const &law, double internal_energy, double pressure)
+{
+  double density = law.density0;
+  for (int i = 0; i < 100 && density > 0.0 && eosInRange(law, 1.0 / density); ++i)
+  {
+    EosState<double> const state = equationOfState(law, 1.0 / density, internal_energy);
+    double const change = (pressure - state.pressure) / state.sound_speed_squared;
+    density += change;
+    if (std::fabs(change) <= 1e-15 * density)
+      return density;
+  }
+  return -1.0;
+}
+
+} // namespace
+
+InitialState initialState(DeckChecker const &check, ParameterList const &list, LawSpec const &law,
+                          std::string const &path)
+{
+  Material const &m = law.law;
+  InitialState state = {m.density0, m.energy0};
+  bool const density_given = list.isParameter("density");
+  bool const energy_given = list.isParameter("internal_energy");
+  if (density_given)
+    state.density = list.get<double>("density");
+  if (energy_given)
+    state.internal_energy = list.get<double>("internal_energy");
+  if (law.rigid)
+    return state;
+  check.require(eosInRange(m, 1.0 / state.density), keyPath(path, "density"),
+                numberText(state.density) + " is beyond the reach of the law's Hugoniot");
+  if (list.isParameter("pressure"))
+  {
+    std::string const where = keyPath(path, "pressure");
+    double const pressure = list.get<double>("pressure");
+    check.require(!energy_given, where, "given together with internal_energy; expected: one of them");
+    double const sv = 1.0 / state.density;
+    double const at_reference = equationOfState(m, sv, m.energy0).pressure;
+    // dp/de at constant density: every law is linear in e.
+    double const slope = m.eos == EosKind::Stiffened      ? m.gruneisen * state.density
+                         : m.eos == EosKind::MieGruneisen ? m.gruneisen * m.density0
+                                                          : (m.gruneisen - 1.0) * state.density;
+    if (slope > 0.0)
+      state.internal_energy = m.energy0 + (pressure - at_reference) / slope;
+    else
+    {
+      check.require(!density_given, where, "follows from the density in this law; expected: one of them");
+      state.density = densityAtPressure(m, m.energy0, pressure);
+      check.require(state.density > 0.0, where, numberText(pressure) + " is beyond the reach of the law");
+    }
+  }
+  check.require(m.eos != EosKind::IdealGas || state.internal_energy > 0.0, path,
+                "an ideal gas needs a positive internal_energy or pressure");
+  return state;
+}
+
+void convertBodies(DeckChecker const &check, ParameterList const &bodies, Deck &deck)
+{
+  check.require(bodies.numParams() > 0, "bodies", "none; expected: at least one");
+  for (auto i = bodies.begin(); i != bodies.end(); ++i)
+  {
+    BodySpec body;
+    body.name = bodies.name(i);
+    std::string const path = "bodies/" + body.name;
+    check.require(body.name != "void" && body.name != "wall", path, "this name has a meaning of its own");
+    ParameterList const &list = bodies.sublist(body.name);
+    body.law = requireIndex(check, deck.laws, list.get<std::string>("material"), keyPath(path, "material"), "material");
+    body.shape = shapeOf(check, list, path);
+    body.velocity = vectorOf(list, "velocity");
+    body.angular_velocity = list.get<double>("angular_velocity");
+    body.cut = list.get<bool>("cut");
+    InitialState const state = initialState(check, list, deck.laws[body.law], path);
+    body.density = state.density;
+    body.internal_energy = state.internal_energy;
+    convertMotion(check, list, path, deck, body);
+    convertBlock(check, list, path, deck, body);
+    assignField(check, list, path, deck, body);
+    check.require(reachesMesh(body.shape, deck.x, deck.y), path, "lies wholly outside of the mesh");
+    deck.bodies.push_back(body);
+  }
+}
+
+} // namespace Harmos

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_DeckBodies.hpp>
+#include <Harmos_DeckReader.hpp>
+
+#include <Teuchos_Array.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Harmos
+{
+
+namespace
+{
+
+using Teuchos::ParameterList;
+
+char const *const side_name[num_boundary_sides] = {"left", "right", "bottom", "top"};
+
+AxisSpec axisOf(DeckChecker const &check, ParameterList const &list, std::string const &path)
+{
+  AxisSpec axis;
+  axis.from = list.get<double>("from");
+  axis.to = list.get<double>("to");
+  axis.cells = list.get<int>("cells");
+  axis.grading = list.get<double>("grading");
+  check.require(axis.to > axis.from, keyPath(path, "to"),
+                numberText(axis.to) + " is not above from = " + numberText(axis.from));
+  check.require(axis.smallestCell() > 1e-12 * (axis.to - axis.from), keyPath(path, "grading"),
+                numberText(axis.grading) + " makes cells of no size");
+  return axis;
+}
+
+void convertLaws(ParameterList const &materials, Deck &deck)
+{
+  for (auto i = materials.begin(); i != materials.end(); ++i)
+  {
+    ParameterList const &list = materials.sublist(materials.name(i));
+    auto const value = [&list](char const *key) { return list.isParameter(key) ? list.get<double>(key) : 0.0; };
+    LawSpec spec;
+    spec.name = materials.name(i);
+    std::string const eos = list.get<std::string>("eos");
+    spec.rigid = eos == "rigid";
+    Material &law = spec.law;
+    law.eos = eos == "mie-gruneisen" ? EosKind::MieGruneisen
+              : eos == "ideal gas"   ? EosKind::IdealGas
+                                     : EosKind::Stiffened;
+    law.density0 = value("density");
+    law.sound_speed0 = value("sound_speed");
+    law.slope = value("slope");
+    law.gruneisen = eos == "ideal gas" ? value("gamma") : value("gruneisen");
+    law.energy0 = value("internal_energy");
+    std::string const strength = list.isParameter("strength") ? list.get<std::string>("strength") : "none";
+    law.strength = strength == "plastic"   ? StrengthKind::Plastic
+                   : strength == "elastic" ? StrengthKind::Elastic
+                                           : StrengthKind::None;
+    law.shear_modulus = value("shear_modulus");
+    law.yield = value("yield_stress");
+    law.hardening = value("hardening_modulus");
+    deck.laws.push_back(spec);
+  }
+}
+
+void convertInflow(DeckChecker const &check, ParameterList const &list, std::string const &path, Vector2 const &outward,
+                   Deck const &deck, Boundary &boundary)
+{
+  BodySpec const &body =
+      deck.bodies[requireIndex(check, deck.bodies, list.get<std::string>("body"), keyPath(path, "body"), "body")];
+  LawSpec const &law = deck.laws[body.law];
+  check.require(!law.rigid, keyPath(path, "body"), "a rigid body cannot flow in");
+  boundary.material = body.field;
+  boundary.velocity = vectorOf(list, "velocity");
+  check.require(dot(boundary.velocity, outward) < 0.0, keyPath(path, "velocity"),
+                "does not point into the mesh; expected: an inflow");
+  InitialState const state = initialState(check, list, law, path);
+  boundary.specific_volume = 1.0 / state.density;
+  boundary.internal_energy = state.internal_energy;
+}
+
+void convertBoundaries(DeckChecker const &check, ParameterList const &boundaries, Deck &deck)
+{
+  Vector2 const outward[num_boundary_sides] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
+  bool const lagrangian = deck.kinematics == Kinematics::Lagrangian;
+  for (int side = 0; side < num_boundary_sides; ++side)
+  {
+    ParameterList const &list = boundaries.sublist(side_name[side]);
+    std::string const path = std::string("boundaries/") + side_name[side];
+    std::string const type = list.get<std::string>("type");
+    Boundary &boundary = deck.boundary[side];
+    if (type == "contact wall")
+      boundary.kind = BoundaryKind::ContactWall;
+    else if (type == "fixed")
+      boundary.kind = BoundaryKind::Fixed;
+    else if (type == "outflow")
+      boundary.kind = BoundaryKind::Outflow;
+    else if (type == "inflow")
+    {
+      check.require(!lagrangian, keyPath(path, "type"), "kinematics lagrangian has no inflow: its mesh moves along");
+      boundary.kind = BoundaryKind::Inflow;
+      convertInflow(check, list, path, outward[side], deck, boundary);
+    }
+    else if (type == "prescribed")
+    {
+      check.require(lagrangian, keyPath(path, "type"), "a prescribed velocity needs kinematics lagrangian");
+      boundary.kind = BoundaryKind::Prescribed;
+      boundary.velocity = list.get<double>("normal_velocity") * outward[side];
+    }
+  }
+}
+
+void convertInteractions(DeckChecker const &check, ParameterList const &list, Deck &deck)
+{
+  int const n = static_cast<int>(deck.fields.size());
+  auto const kindOf = [](std::string const &word) { return word == "tied" ? Interaction::Tied : Interaction::Sliding; };
+  deck.interaction.assign(static_cast<std::size_t>(n) * n, kindOf(list.get<std::string>("default")));
+  for (auto i = list.begin(); i != list.end(); ++i)
+  {
+    if (!list.entry(i).isList())
+      continue;
+    ParameterList const &item = list.sublist(list.name(i));
+    std::string const path = "interactions/" + list.name(i);
+    int field[2];
+    for (int k = 0; k < 2; ++k)
+    {
+      char const *key = k == 0 ? "between" : "and";
+      std::string const name = item.get<std::string>(key);
+      field[k] = deck.bodies[requireIndex(check, deck.bodies, name, keyPath(path, key), "body")].field;
+    }
+    check.require(field[0] != field[1], path, "both bodies share one velocity field");
+    Interaction const kind = kindOf(item.get<std::string>("type"));
+    deck.interaction[field[0] * n + field[1]] = kind;
+    deck.interaction[field[1] * n + field[0]] = kind;
+  }
+}
+
+void convertRemovalOrder(DeckChecker const &check, Teuchos::Array<std::string> const &names, Deck &deck)
+{
+  std::string const path = "numerics/reconstruction/removal_order";
+  if (names.empty())
+    return;
+  for (std::string const &name : names)
+  {
+    int const field =
+        name == "void" ? -1 : requireIndex(check, deck.fields, name, path, "field (a body that joins none) or void");
+    auto const &order = deck.removal_order;
+    check.require(std::find(order.begin(), order.end(), field) == order.end(), path, "\"" + name + "\" comes twice");
+    deck.removal_order.push_back(field);
+  }
+  for (int field = 0; field < static_cast<int>(deck.fields.size()); ++field)
+    check.require(std::find(deck.removal_order.begin(), deck.removal_order.end(), field) != deck.removal_order.end(),
+                  path, "\"" + deck.fields[field].name + "\" is not in it; expected: every field once");
+}
+
+void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &deck)
+{
+  deck.lagrange.courant = list.get<double>("courant");
+  deck.lagrange.linear_viscosity = list.get<double>("linear_viscosity");
+  deck.lagrange.quadratic_viscosity = list.get<double>("quadratic_viscosity");
+  deck.lagrange.hourglass_viscosity = list.get<double>("hourglass_viscosity");
+
+  ParameterList const &reconstruction = list.sublist("reconstruction");
+  deck.reconstruction.method = reconstruction.get<std::string>("method") == "youngs"
+                                   ? ReconstructionMethod::Youngs
+                                   : ReconstructionMethod::MomentOfFluid;
+  deck.reconstruction.sliver = reconstruction.get<double>("sliver");
+  convertRemovalOrder(check, reconstruction.get<Teuchos::Array<std::string>>("removal_order"), deck);
+
+  ParameterList const &constraint = list.sublist("constraint");
+  deck.constraint.tolerance = constraint.get<double>("tolerance");
+  deck.constraint.max_iterations = constraint.get<int>("max_iterations");
+  deck.constraint.shortest_segment = constraint.get<double>("shortest_segment");
+  deck.constraint.exposed_face = constraint.get<double>("exposed_face");
+
+  ParameterList const &remap = list.sublist("remap");
+  deck.remap.order = remap.get<int>("order");
+  deck.remap.merge_below = remap.get<double>("merge_below");
+  deck.remap.close_void_below = remap.get<double>("close_void_below");
+  deck.remap.return_kinetic_defect = remap.get<bool>("return_kinetic_defect");
+}
+
+Cadence cadenceOf(ParameterList const &list)
+{
+  Cadence cadence;
+  cadence.every_cycles = list.get<int>("every_cycles");
+  cadence.every_time = list.get<double>("every_time");
+  cadence.every_wall_seconds = list.get<double>("every_wall_seconds");
+  cadence.at_end = list.get<bool>("at_end");
+  return cadence;
+}
+
+void convertRunAndOutput(ParameterList const &run, ParameterList const &output, Deck &deck)
+{
+  deck.run.end_time = run.get<double>("end_time");
+  deck.run.max_cycles = run.get<int>("max_cycles");
+  deck.run.max_dt = run.get<double>("max_dt");
+  deck.run.initial_dt = run.get<double>("initial_dt");
+  deck.output.xdmf = output.get<bool>("xdmf");
+  deck.output.vtu = output.get<bool>("vtu");
+  deck.output.history = cadenceOf(output.sublist("history"));
+  deck.output.fields = cadenceOf(output.sublist("fields"));
+  deck.output.checkpoint = cadenceOf(output.sublist("checkpoint"));
+}
+
+std::vector<PointSpec> pointsOf(DeckChecker const &check, ParameterList const &list, std::string const &kind,
+                                Deck const &deck)
+{
+  std::vector<PointSpec> points;
+  for (auto i = list.begin(); i != list.end(); ++i)
+  {
+    Vector2 const p = vectorOf(list.sublist(list.name(i)), "position");
+    bool const inside = p[0] >= deck.x.from && p[0] <= deck.x.to && p[1] >= deck.y.from && p[1] <= deck.y.to;
+    check.require(inside, kind + "/" + list.name(i) + "/position",
+                  "[" + numberText(p[0]) + ", " + numberText(p[1]) + "] lies outside of the mesh");
+    points.push_back({list.name(i), p});
+  }
+  return points;
+}
+
+/// Largest speed that the deck names; without one, a thousandth of the largest sound speed; without that, 1 m/s.
+double speedScale(Deck const &deck)
+{
+  Vector2 const g = deck.lagrange.gravity;
+  double speed = std::sqrt(std::hypot(g[0], g[1]) * std::hypot(deck.x.to - deck.x.from, deck.y.to - deck.y.from));
+  double sound = 0.0;
+  for (BodySpec const &body : deck.bodies)
+    speed = std::max(speed, std::hypot(body.velocity[0], body.velocity[1]));
+  for (Boundary const &boundary : deck.boundary)
+    speed = std::max(speed, std::hypot(boundary.velocity[0], boundary.velocity[1]));
+  for (BodySpec const &body : deck.bodies)
+  {
+    double reach = body.shape.outer_radius;
+    for (Vector2 const &p : outlinePoints(body.shape))
+      reach = std::max(reach, std::hypot(p[0] - body.shape.reference()[0], p[1] - body.shape.reference()[1]));
+    speed = std::max(speed, std::fabs(body.angular_velocity) * reach);
+  }
+  for (LawSpec const &law : deck.laws)
+    sound = std::max(sound, law.law.sound_speed0);
+  if (speed > 0.0)
+    return speed;
+  return sound > 0.0 ? 1e-3 * sound : 1.0;
+}
+
+} // namespace
+
+Deck convertDeck(ParameterList const &complete, std::string const &file)
+{
+  DeckChecker const check(file);
+  Deck deck;
+  deck.title = complete.get<std::string>("title");
+  std::string const kinematics = complete.get<std::string>("kinematics");
+  deck.kinematics = kinematics == "single"       ? Kinematics::Single
+                    : kinematics == "lagrangian" ? Kinematics::Lagrangian
+                                                 : Kinematics::Xfem;
+  deck.lagrange.gravity = vectorOf(complete, "gravity");
+  deck.x = axisOf(check, complete.sublist("mesh").sublist("x"), "mesh/x");
+  deck.y = axisOf(check, complete.sublist("mesh").sublist("y"), "mesh/y");
+  // Faces are numbered 4 * cell + k in 32 bits.
+  check.require(static_cast<long long>(deck.x.cells) * deck.y.cells <= std::numeric_limits<int>::max() / 4, "mesh",
+                "more cells than 32-bit face numbers reach");
+  convertLaws(complete.sublist("materials"), deck);
+  check.require(!deck.laws.empty(), "materials", "none; expected: at least one");
+  convertBodies(check, complete.sublist("bodies"), deck);
+  convertBoundaries(check, complete.sublist("boundaries"), deck);
+  convertInteractions(check, complete.sublist("interactions"), deck);
+  convertNumerics(check, complete.sublist("numerics"), deck);
+  convertRunAndOutput(complete.sublist("run"), complete.sublist("output"), deck);
+  deck.probes = pointsOf(check, complete.sublist("probes"), "probes", deck);
+  deck.tracers = pointsOf(check, complete.sublist("tracers"), "tracers", deck);
+  deck.constraint.speed_scale = speedScale(deck);
+  deck.yaml = deckAsYaml(complete);
+  deck.json = deckAsJson(complete);
+  return deck;
+}
+
+} // namespace Harmos

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_DeckReader.hpp>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_YamlParameterListCoreHelpers.hpp>
+
+#include <cctype>
+#include <fstream>
+#include <sstream>
+
+namespace Harmos
+{
+
+namespace
+{
+
+using Teuchos::ParameterList;
+
+char const *const root_name = "harmos";
+
+/// Teuchos' parser refuses other than ASCII even in comments, and a last line without its end.
+std::string forParser(std::string const &text)
+{
+  std::string result = text;
+  bool comment = false;
+  for (char &c : result)
+  {
+    comment = c != '\n' && (comment || c == '#');
+    if (comment && static_cast<unsigned char>(c) > 126)
+      c = '?';
+  }
+  if (result.empty() || result.back() != '\n')
+    result += '\n';
+  return result;
+}
+
+/// The lines of a Teuchos message that say what is wrong, as one line.
+std::string oneLine(std::string const &message)
+{
+  std::istringstream lines(message);
+  std::string line, result;
+  while (std::getline(lines, line))
+  {
+    std::size_t const first = line.find_first_not_of(" \t");
+    bool const noise = first == std::string::npos || line[first] == '^' || line.find("Throw number") == 0 ||
+                       line.find("Throw test") == 0 || line.find("Parser was in state") == 0 ||
+                       line.find("Lexer text") == 0 || line.find(".cpp:") != std::string::npos || line[first] == '"';
+    // Of the excerpt that Teuchos shows, the place is said already.
+    bool const excerpt = first != std::string::npos && first > 0;
+    if (noise || excerpt)
+      continue;
+    result += (result.empty() ? "" : "; ") + line.substr(first);
+  }
+  for (std::string const &drop : {std::string("error: "), std::string(" of parseYamlStream")})
+    for (std::size_t at = result.find(drop); at != std::string::npos; at = result.find(drop))
+      result.erase(at, drop.size());
+  return result;
+}
+
+/// A flow map or array must end on its line (Teuchos' grammar): say so where a deck breaks it.
+std::string openBracketHint(std::string const &text)
+{
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number)
+  {
+    int depth = 0;
+    for (char c : line.substr(0, line.find('#')))
+      depth += c == '{' || c == '[' ? 1 : (c == '}' || c == ']' ? -1 : 0);
+    if (depth != 0)
+      return "; line " + std::to_string(number) + ": { } and [ ] must open and close on one line";
+  }
+  return "";
+}
+
+ParameterList parseYaml(std::string const &text, std::string const &file)
+{
+  std::string const input = forParser(text);
+  if (input.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw DeckError(file + ": empty; expected: a map under the outermost key " + root_name);
+  try
+  {
+    ParameterList list = *Teuchos::getParametersFromYamlString(input);
+    return list;
+  }
+  catch (std::exception const &error)
+  {
+    std::string const message = error.what();
+    std::string const hint = openBracketHint(input);
+    if (message.find("multiple top-level") != std::string::npos ||
+        (message.find("rhs.at(offset)") != std::string::npos && hint.empty()))
+      throw DeckError(file + ": the deck must be one map under the outermost key " + root_name);
+    throw DeckError(file + ": not readable as YAML: " + oneLine(message) + hint);
+  }
+}
+
+void applyOverride(ParameterList &deck, std::string const &text)
+{
+  std::size_t const equals = text.find('=');
+  std::string const prefix = "--set " + text;
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw DeckError(prefix + ": expected: path/to/key=value");
+  ParameterList value = parseYaml(std::string(root_name) + ":\n  value: " + text.substr(equals + 1) + "\n", prefix);
+  ParameterList *list = &deck;
+  std::istringstream path(text.substr(0, equals));
+  std::string name;
+  std::getline(path, name, '/');
+  for (std::string next; std::getline(path, next, '/'); name = next)
+  {
+    if (list->isParameter(name) && !list->isSublist(name))
+      throw DeckError(prefix + ": " + name + " is no map");
+    list = &list->sublist(name);
+  }
+  list->remove(name, false);
+  if (value.isSublist("value"))
+    list->set(name, value.sublist("value"));
+  else
+    list->setEntry(name, value.getEntry("value"));
+}
+
+} // namespace
+
+ParameterList parseDeck(std::string const &text, std::string const &file, std::vector<std::string> const &overrides)
+{
+  ParameterList deck = parseYaml(text, file);
+  if (deck.name() != root_name)
+    throw DeckError(file + ": outermost key is " + deck.name() + "; expected: " + root_name);
+  for (std::string const &item : overrides)
+    applyOverride(deck, item);
+  return deck;
+}
+
+Deck readDeckText(std::string const &text, std::string const &file, std::vector<std::string> const &overrides)
+{
+  return convertDeck(completeDeck(deckSchema(), parseDeck(text, file, overrides), file), file);
+}
+
+Deck readDeck(std::string const &file, std::vector<std::string> const &overrides, Teuchos::Comm<int> const &comm)
+{
+  std::string text;
+  int size = -1;
+  if (comm.getRank() == 0)
+  {
+    std::ifstream stream(file);
+    std::ostringstream content;
+    if (stream && (stream.peek() == std::ifstream::traits_type::eof() || content << stream.rdbuf()))
+    {
+      text = content.str();
+      size = static_cast<int>(text.size());
+    }
+  }
+  Teuchos::broadcast(comm, 0, &size);
+  if (size < 0)
+    throw DeckError(file + ": cannot be read");
+  text.resize(static_cast<std::size_t>(size));
+  if (size > 0)
+    Teuchos::broadcast(comm, 0, size, text.data());
+  return readDeckText(text, file, overrides);
+}
+
+} // namespace Harmos

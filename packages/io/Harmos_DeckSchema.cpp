@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_DeckSchema.hpp>
+
+#include <Harmos_Constrain.hpp>
+#include <Harmos_Lagrange.hpp>
+#include <Harmos_Reconstruct.hpp>
+#include <Harmos_Remap.hpp>
+
+#include <Teuchos_Array.hpp>
+
+#include <ostream>
+
+namespace Harmos
+{
+
+namespace
+{
+
+using Teuchos::ParameterList;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+KeyRange const any{};
+KeyRange const positive{0.0, infinity, true, false};
+KeyRange const not_negative{0.0, infinity, false, false};
+
+KeyRange between(double min, double max)
+{
+  return {min, max, false, false};
+}
+
+template <class T>
+void add(ParameterList &list, std::string const &name, T const &value, KeyRules const &rules, std::string const &doc)
+{
+  Teuchos::RCP<Teuchos::ParameterEntryValidator const> const validator = Teuchos::rcp(new DeckKeyValidator(rules));
+  list.set(name, value, doc, validator);
+}
+
+KeyRules rulesOf(KeyType type, KeyRange const &range = any, std::string const &unit = "")
+{
+  KeyRules rules;
+  rules.type = type;
+  rules.range = range;
+  rules.unit = unit;
+  return rules;
+}
+
+KeyRules required(KeyRules rules)
+{
+  rules.presence = Presence::Required;
+  return rules;
+}
+
+KeyRules optional(KeyRules rules, std::string const &note)
+{
+  rules.presence = Presence::Optional;
+  rules.default_note = note;
+  return rules;
+}
+
+KeyRules number(KeyRange const &range, std::string const &unit = "")
+{
+  return rulesOf(KeyType::Number, range, unit);
+}
+
+KeyRules integer(KeyRange const &range)
+{
+  return rulesOf(KeyType::Integer, range);
+}
+
+KeyRules numbers(int least, int most, std::string const &unit, KeyRange const &range = any)
+{
+  KeyRules rules = rulesOf(KeyType::Numbers, range, unit);
+  rules.least_length = least;
+  rules.most_length = most;
+  return rules;
+}
+
+KeyRules choice(std::vector<std::string> const &words)
+{
+  KeyRules rules = rulesOf(KeyType::Choice);
+  rules.choices = words;
+  return rules;
+}
+
+Teuchos::Array<double> pair(double x, double y)
+{
+  return Teuchos::tuple(x, y);
+}
+
+void addTop(ParameterList &list)
+{
+  add(list, "title", std::string(), rulesOf(KeyType::Text), "what the run is about");
+  add(list, "kinematics", std::string("xfem"), choice({"xfem", "single", "lagrangian"}),
+      "xfem: every field has its own velocity; single: one velocity in a mixed cell; lagrangian: body-fitted blocks "
+      "that move with the material, no remap");
+  add(list, "geometry", std::string("planar"), choice({"planar"}), "planar: per unit depth");
+  add(list, "gravity", pair(0.0, 0.0), numbers(2, 2, "m/s^2"), "acceleration of every deformable and free body");
+}
+
+void addMesh(ParameterList &mesh)
+{
+  for (char const *axis : {"x", "y"})
+  {
+    ParameterList &list = mesh.sublist(axis);
+    add(list, "from", 0.0, required(number(any, "m")), "first grid line");
+    add(list, "to", 0.0, required(number(any, "m")), "last grid line, above `from`");
+    add(list, "cells", 0, required(integer({1.0, infinity, false, false})), "number of cells");
+    add(list, "grading", 1.0, number(positive), "size of the last cell over the first; sizes grow geometrically");
+  }
+}
+
+void addState(ParameterList &list, std::string const &whose)
+{
+  add(list, "density", 0.0, optional(number(positive, "kg/m^3"), "of the law"), "density of " + whose);
+  add(list, "internal_energy", 0.0, optional(number(any, "J/kg"), "of the law"),
+      "internal energy of " + whose + ", per mass; not together with pressure");
+  add(list, "pressure", 0.0, optional(number(any, "Pa"), "follows from density and energy"),
+      "pressure of " + whose +
+          ", met by the internal energy, or by the density where the law's pressure does not depend on energy");
+}
+
+void addBoundaries(ParameterList &boundaries)
+{
+  for (char const *side : {"left", "right", "bottom", "top"})
+  {
+    ParameterList &list = boundaries.sublist(side);
+    add(list, "type", std::string("slip wall"),
+        choice({"slip wall", "contact wall", "fixed", "inflow", "outflow", "prescribed"}),
+        "slip wall: no normal velocity (symmetry); contact wall: one-sided and frictionless, a body can leave it; "
+        "fixed: no velocity; inflow: given state; outflow: free of traction; prescribed: given normal velocity "
+        "(lagrangian only)");
+    ParameterList &inflow = list.sublist("type = inflow");
+    add(inflow, "body", std::string(), required(rulesOf(KeyType::Name)), "body whose material flows in");
+    add(inflow, "velocity", pair(0.0, 0.0), required(numbers(2, 2, "m/s")), "velocity, into the mesh");
+    addState(inflow, "what flows in");
+    ParameterList &prescribed = list.sublist("type = prescribed");
+    add(prescribed, "normal_velocity", 0.0, required(number(any, "m/s")), "velocity out of the mesh");
+  }
+}
+
+void addStrength(ParameterList &list)
+{
+  add(list, "strength", std::string("none"), choice({"none", "elastic", "plastic"}),
+      "none: a fluid; elastic: linear deviator; plastic: von Mises, radial return, linear hardening");
+  ParameterList &elastic = list.sublist("strength = elastic");
+  add(elastic, "shear_modulus", 0.0, required(number(positive, "Pa")), "shear modulus");
+  ParameterList &plastic = list.sublist("strength = plastic");
+  add(plastic, "shear_modulus", 0.0, required(number(positive, "Pa")), "shear modulus");
+  add(plastic, "yield_stress", 0.0, required(number(positive, "Pa")), "initial yield stress in simple tension");
+  add(plastic, "hardening_modulus", 0.0, number(not_negative, "Pa"),
+      "growth of the yield stress per equivalent plastic strain; 0: perfectly plastic");
+}
+
+void addMaterials(ParameterList &materials)
+{
+  ParameterList &list = materials.sublist("NAME");
+  add(list, "eos", std::string(), required(choice({"stiffened", "mie-gruneisen", "ideal gas", "rigid"})),
+      "stiffened: p = c0^2 (rho - rho0) + gruneisen rho (e - e0); mie-gruneisen: Hugoniot Us = c0 + slope up; "
+      "ideal gas: p = (gamma - 1) rho e; rigid: moves as a rigid body");
+  add(list, "density", 0.0, required(number(positive, "kg/m^3")), "reference density rho0");
+  for (bool const hugoniot : {false, true})
+  {
+    ParameterList &solid = list.sublist(hugoniot ? "eos = mie-gruneisen" : "eos = stiffened");
+    add(solid, "sound_speed", 0.0, required(number(positive, "m/s")), "bulk sound speed c0 of the reference state");
+    if (hugoniot)
+      add(solid, "slope", 0.0, required(number(not_negative)), "slope of shock over particle velocity");
+    add(solid, "gruneisen", 0.0, number(not_negative), "Grueneisen coefficient of the reference state");
+    add(solid, "internal_energy", 0.0, number(any, "J/kg"), "internal energy e0 of the reference state");
+    addStrength(solid);
+  }
+  ParameterList &gas = list.sublist("eos = ideal gas");
+  add(gas, "gamma", 0.0, required(number({1.0, infinity, true, false})), "ratio of specific heats");
+  add(gas, "internal_energy", 0.0, number(not_negative, "J/kg"), "internal energy that bodies start with by default");
+}
+
+void addShapes(ParameterList &list)
+{
+  add(list, "shape", std::string(), required(choice({"rectangle", "disc", "annulus", "polygon", "half-plane"})),
+      "outline of the body");
+  ParameterList &rectangle = list.sublist("shape = rectangle");
+  add(rectangle, "center", pair(0.0, 0.0), required(numbers(2, 2, "m")), "centre");
+  add(rectangle, "size", pair(0.0, 0.0), required(numbers(2, 2, "m", positive)), "width and height before rotation");
+  ParameterList &disc = list.sublist("shape = disc");
+  add(disc, "center", pair(0.0, 0.0), required(numbers(2, 2, "m")), "centre");
+  add(disc, "radius", 0.0, required(number(positive, "m")), "radius");
+  ParameterList &annulus = list.sublist("shape = annulus");
+  add(annulus, "center", pair(0.0, 0.0), required(numbers(2, 2, "m")), "centre");
+  add(annulus, "inner_radius", 0.0, required(number(positive, "m")), "radius of the hole");
+  add(annulus, "outer_radius", 0.0, required(number(positive, "m")), "outer radius");
+  ParameterList &polygon = list.sublist("shape = polygon");
+  add(polygon, "points", pair(0.0, 0.0), required(numbers(6, 0, "m")),
+      "corners x0, y0, x1, y1, ... in either sense, without crossing edges");
+  ParameterList &half_plane = list.sublist("shape = half-plane");
+  add(half_plane, "point", pair(0.0, 0.0), required(numbers(2, 2, "m")), "a point on its edge");
+  add(half_plane, "normal", pair(0.0, 0.0), required(numbers(2, 2, "")),
+      "direction out of the material, of any length");
+}
+
+void addBodies(ParameterList &bodies)
+{
+  ParameterList &list = bodies.sublist("NAME");
+  add(list, "material", std::string(), required(rulesOf(KeyType::Name)), "law, a name in `materials`");
+  addShapes(list);
+  add(list, "angle", 0.0, number(any, "degrees"),
+      "rotation, counter-clockwise about the centre (polygon: centroid, half-plane: point)");
+  add(list, "shift", pair(0.0, 0.0), numbers(2, 2, "m"), "displacement after the rotation");
+  add(list, "velocity", pair(0.0, 0.0), numbers(2, 2, "m/s"), "initial velocity of the centre");
+  add(list, "angular_velocity", 0.0, number(any, "rad/s"), "initial rotation about the centre");
+  addState(list, "the body at the start");
+  add(list, "cut", false, rulesOf(KeyType::Bool), "cut this body out of the bodies before it");
+  add(list, "join", std::string(), optional(rulesOf(KeyType::Name), "a velocity field of its own"),
+      "earlier body of the same law whose velocity field this one shares (they weld)");
+  add(list, "motion", std::string("fixed"), optional(choice({"fixed", "prescribed", "free"}), "fixed (rigid law)"),
+      "of a rigid body. fixed: at rest; prescribed: keeps its velocities; free: follows from impulse and torque");
+  add(list, "cells", Teuchos::Array<double>(Teuchos::tuple(1.0, 1.0)),
+      optional(numbers(2, 2, "", {1.0, 1e6, false, false}), "from the size of the mesh's cells"),
+      "lagrangian: cells of the block along its first and second side");
+}
+
+void addInteractions(ParameterList &list)
+{
+  KeyRules const kind = choice({"sliding", "tied"});
+  add(list, "default", std::string("sliding"), kind,
+      "between any two fields. sliding: frictionless, free to separate; tied: no relative velocity");
+  ParameterList &exception = list.sublist("NAME");
+  add(exception, "between", std::string(), required(rulesOf(KeyType::Name)), "a body");
+  add(exception, "and", std::string(), required(rulesOf(KeyType::Name)), "another body");
+  add(exception, "type", std::string(), required(kind), "how these two interact");
+}
+
+void addNumerics(ParameterList &list)
+{
+  LagrangeOptions const lagrange;
+  add(list, "courant", lagrange.courant, number({0.0, 1.0, true, true}), "part of the stable time step that is taken");
+  add(list, "linear_viscosity", lagrange.linear_viscosity, number(between(0.0, 10.0)), "artificial, in compression");
+  add(list, "quadratic_viscosity", lagrange.quadratic_viscosity, number(between(0.0, 10.0)),
+      "artificial, in compression");
+  add(list, "hourglass_viscosity", lagrange.hourglass_viscosity, number(between(0.0, 1.0)),
+      "Flanagan-Belytschko coefficient");
+  add(list, "closure", std::string("equal strain"), choice({"equal strain"}),
+      "of mixed cells in `single`: all materials of a cell strain alike");
+
+  ReconstructionOptions const reconstruction;
+  ParameterList &r = list.sublist("reconstruction");
+  add(r, "method", std::string("moment of fluid"), choice({"moment of fluid", "youngs"}), "interface normals");
+  add(r, "sliver", reconstruction.sliver, number(between(0.0, 0.5)),
+      "moment of fluid: below this volume fraction normals come from least squares");
+  add(r, "removal_order", Teuchos::Array<std::string>(), rulesOf(KeyType::Names),
+      "fixed order in which materials leave a mixed cell: every field once, by its first body, and void (last when "
+      "not named). Empty: chosen by the method");
+
+  ConstraintOptions const constraint;
+  ParameterList &c = list.sublist("constraint");
+  add(c, "tolerance", constraint.tolerance, number({0.0, 1e-2, true, false}), "relative residual of the multipliers");
+  add(c, "max_iterations", constraint.max_iterations, integer({1.0, infinity, false, false}), "limit for one cycle");
+  add(c, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),
+      "interface segments shorter than this part of a cell carry no multiplier");
+  add(c, "exposed_face", constraint.exposed_face, number(between(0.0, 1.0)),
+      "least exposed part of a cell face that carries a multiplier");
+
+  RemapOptions const remap;
+  ParameterList &m = list.sublist("remap");
+  add(m, "order", remap.order, integer(between(1.0, 2.0)), "1: constant in a cell; 2: limited linear");
+  add(m, "merge_below", remap.merge_below, number(between(0.0, 0.1)),
+      "fragments below this volume fraction merge with neighbours of their material; 0: never");
+  add(m, "close_void_below", remap.close_void_below, number(between(0.0, 0.01)),
+      "spurious void below this part of a cell is closed");
+  add(m, "return_kinetic_defect", remap.return_kinetic_defect, rulesOf(KeyType::Bool),
+      "kinetic energy lost by the remap becomes internal energy");
+}
+
+void addRun(ParameterList &list)
+{
+  add(list, "end_time", 0.0, required(number(positive, "s")), "the run starts at 0");
+  add(list, "max_cycles", 0, integer(not_negative), "stop after this many cycles; 0: no limit");
+  add(list, "max_dt", 0.0, number(not_negative, "s"), "largest time step; 0: no limit");
+  add(list, "initial_dt", 0.0, number(not_negative, "s"), "largest step of the first cycle; 0: no limit");
+}
+
+void addCadence(ParameterList &list, int every_cycles, bool at_end, std::string const &what)
+{
+  add(list, "every_cycles", every_cycles, integer(not_negative), what + " every so many cycles; 0: not by cycles");
+  add(list, "every_time", 0.0, number(not_negative, "s"), what + " every interval of simulated time; 0: not by time");
+  add(list, "every_wall_seconds", 0.0, number(not_negative, "s"), what + " by the wall clock; 0: not so");
+  add(list, "at_end", at_end, rulesOf(KeyType::Bool), what + " after the last cycle");
+}
+
+void addOutput(ParameterList &list)
+{
+  add(list, "xdmf", true, rulesOf(KeyType::Bool), "fields as HDF5 with XDMF");
+  add(list, "vtu", false, rulesOf(KeyType::Bool), "fields as VTK files");
+  addCadence(list.sublist("history"), 1, true, "rows of history, contact, probes and tracers");
+  addCadence(list.sublist("fields"), 0, true, "fields");
+  addCadence(list.sublist("checkpoint"), 0, false, "a checkpoint");
+}
+
+} // namespace
+
+ParameterList deckSchema()
+{
+  ParameterList schema("harmos");
+  addTop(schema);
+  addMesh(schema.sublist("mesh"));
+  addBoundaries(schema.sublist("boundaries"));
+  addMaterials(schema.sublist("materials"));
+  addBodies(schema.sublist("bodies"));
+  addInteractions(schema.sublist("interactions"));
+  addNumerics(schema.sublist("numerics"));
+  addRun(schema.sublist("run"));
+  addOutput(schema.sublist("output"));
+  for (char const *kind : {"probes", "tracers"})
+    add(schema.sublist(kind).sublist("NAME"), "position", pair(0.0, 0.0), required(numbers(2, 2, "m")),
+        std::string(kind) == "probes" ? "a fixed point whose state is recorded"
+                                      : "start of a point that moves with its material");
+  return schema;
+}
+
+void printSchema(std::ostream &out)
+{
+  out << "Keys of a deck, below its outermost key `harmos`. SI units. NAME: any number of named maps.\n";
+  for (SchemaKey const &key : schemaKeys(deckSchema()))
+  {
+    out << "\n" << key.path;
+    if (!key.condition.empty())
+      out << "   (where " << key.condition << ")";
+    out << "\n    type: " << key.expected << "\n    default: " << key.default_text << "\n    " << key.doc << "\n";
+  }
+}
+
+} // namespace Harmos

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_History.hpp>
+
+#include <stdexcept>
+
+namespace Harmos
+{
+
+std::string historyHeader(std::vector<std::string> const &material_names)
+{
+  std::string header =
+      "cycle,time,dt,mass,momentum_x,momentum_y,angular_momentum,kinetic_energy,internal_energy,external_work,"
+      "contact_loss,remap_loss,energy_error,overlap_volume,void_volume,external_impulse_x,external_impulse_y,"
+      "outflow_mass,outflow_momentum_x,outflow_momentum_y,outflow_energy,pairs,pairs_mixed,multipliers,iterations,"
+      "residual";
+  for (auto const &name : material_names)
+    for (char const *column : {"mass", "volume", "momentum_x", "momentum_y", "kinetic_energy", "internal_energy",
+                               "x_min", "x_max", "y_min", "y_max", "plastic_strain_max"})
+      header += ',' + name + '.' + column;
+  return header;
+}
+
+History::History(std::string const &path, std::vector<std::string> const &material_names, bool writes, CsvStart start)
+    : num_materials_(material_names.size())
+{
+  if (writes)
+    file_ = std::make_unique<CsvFile>(path, historyHeader(material_names), start);
+}
+
+void History::write(HistoryRow const &row)
+{
+  if (!file_)
+    return;
+  if (row.material.size() != num_materials_)
+    throw std::invalid_argument("history row of cycle " + std::to_string(row.cycle) + " has " +
+                                std::to_string(row.material.size()) + " materials, its header " +
+                                std::to_string(num_materials_));
+  std::string line = std::to_string(row.cycle);
+  for (double value : {row.time,
+                       row.dt,
+                       row.mass,
+                       row.momentum_x,
+                       row.momentum_y,
+                       row.angular_momentum,
+                       row.kinetic_energy,
+                       row.internal_energy,
+                       row.external_work,
+                       row.contact_loss,
+                       row.remap_loss,
+                       row.energy_error,
+                       row.overlap_volume,
+                       row.void_volume,
+                       row.external_impulse_x,
+                       row.external_impulse_y,
+                       row.outflow_mass,
+                       row.outflow_momentum_x,
+                       row.outflow_momentum_y,
+                       row.outflow_energy})
+    appendValue(line, value);
+  for (long long count : {row.pairs, row.pairs_mixed, row.multipliers, row.iterations})
+    appendValue(line, count);
+  appendValue(line, row.residual);
+  for (auto const &m : row.material)
+    for (double value : {m.mass, m.volume, m.momentum_x, m.momentum_y, m.kinetic_energy, m.internal_energy, m.x_min,
+                         m.x_max, m.y_min, m.y_max, m.plastic_strain_max})
+      appendValue(line, value);
+  file_->append(line + '\n');
+}
+
+} // namespace Harmos

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <detail/Harmos_Hdf5File.hpp>
+
+#include <stdexcept>
+
+#ifndef H5_HAVE_PARALLEL
+#error "Harmos needs an HDF5 that was built with MPI"
+#endif
+
+namespace Harmos
+{
+
+namespace
+{
+
+template <class T>
+hid_t typeOf();
+template <>
+hid_t typeOf<double>()
+{
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t typeOf<int>()
+{
+  return H5T_NATIVE_INT;
+}
+template <>
+hid_t typeOf<long long>()
+{
+  return H5T_NATIVE_LLONG;
+}
+template <>
+hid_t typeOf<unsigned long long>()
+{
+  return H5T_NATIVE_ULLONG;
+}
+
+/// An identifier that is closed at the end of its scope.
+class Handle
+{
+public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Handle()
+  {
+    if (id_ >= 0)
+      close_(id_);
+  }
+  Handle(Handle const &) = delete;
+  Handle &operator=(Handle const &) = delete;
+  operator hid_t() const { return id_; }
+
+private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// The library's own error print is off: what fails becomes one exception.
+void silenceLibrary()
+{
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+} // namespace
+
+Hdf5File::Hdf5File(std::string path, hid_t file, bool collective)
+    : path_(std::move(path)), file_(file), collective_(collective)
+{
+}
+
+Hdf5File::Hdf5File(Hdf5File &&other) noexcept
+    : path_(std::move(other.path_)), file_(other.file_), collective_(other.collective_)
+{
+  other.file_ = -1;
+}
+
+Hdf5File::~Hdf5File()
+{
+  if (file_ >= 0)
+    H5Fclose(file_);
+}
+
+void Hdf5File::check(bool good, std::string const &what) const
+{
+  if (!good)
+    throw std::runtime_error("HDF5 file '" + path_ + "': cannot " + what);
+}
+
+Hdf5File Hdf5File::create(MPI_Comm comm, std::string const &path)
+{
+  silenceLibrary();
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (size > 1)
+    H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL);
+  hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (file < 0)
+    throw std::runtime_error("HDF5 file '" + path + "': cannot be created");
+  return Hdf5File(path, file, size > 1);
+}
+
+Hdf5File Hdf5File::open(std::string const &path)
+{
+  silenceLibrary();
+  hid_t const file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0)
+    throw std::runtime_error("HDF5 file '" + path + "': missing, damaged, cut short, or not an HDF5 file");
+  return Hdf5File(path, file, false);
+}
+
+void Hdf5File::close()
+{
+  hid_t const file = file_;
+  file_ = -1;
+  check(file < 0 || H5Fclose(file) >= 0, "be closed");
+}
+
+void Hdf5File::createGroup(std::string const &name)
+{
+  Handle const group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  check(group >= 0, "create " + name);
+}
+
+template <class T>
+void Hdf5File::write(std::string const &name, std::vector<T> const &value, int width, long long first, long long total)
+{
+  if (total == 0)
+    return;
+  int const rank = width == 1 ? 1 : 2;
+  hsize_t const shape[2] = {static_cast<hsize_t>(total), static_cast<hsize_t>(width)};
+  hsize_t const start[2] = {static_cast<hsize_t>(first), 0};
+  hsize_t const count[2] = {static_cast<hsize_t>(value.size()) / static_cast<hsize_t>(width),
+                            static_cast<hsize_t>(width)};
+  Handle const file_space(H5Screate_simple(rank, shape, nullptr), H5Sclose);
+  Handle const memory_space(H5Screate_simple(rank, count, nullptr), H5Sclose);
+  Handle const dataset(H5Dcreate2(file_, name.c_str(), typeOf<T>(), file_space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose);
+  check(dataset >= 0, "create " + name);
+  bool selected;
+  if (count[0] > 0)
+    selected = H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0;
+  else
+    selected = H5Sselect_none(file_space) >= 0 && H5Sselect_none(memory_space) >= 0;
+  check(selected, "select rows of " + name);
+  Handle const transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  if (collective_)
+    H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
+  check(H5Dwrite(dataset, typeOf<T>(), memory_space, file_space, transfer, value.data()) >= 0, "write " + name);
+}
+
+template <class T>
+void Hdf5File::writeAttribute(std::string const &object, std::string const &name, T value)
+{
+  Handle const space(H5Screate(H5S_SCALAR), H5Sclose);
+  Handle const attribute(
+      H5Acreate_by_name(file_, object.c_str(), name.c_str(), typeOf<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  check(attribute >= 0 && H5Awrite(attribute, typeOf<T>(), &value) >= 0, "write attribute " + object + ":" + name);
+}
+
+void Hdf5File::writeText(std::string const &name, std::string const &text)
+{
+  Handle const type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, text.size() + 1);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  Handle const space(H5Screate(H5S_SCALAR), H5Sclose);
+  Handle const dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  Handle const transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  if (collective_)
+    H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
+  check(dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, transfer, text.c_str()) >= 0, "write " + name);
+}
+
+template <class T>
+std::vector<T> Hdf5File::read(std::string const &name, int width, long long first, long long count) const
+{
+  std::vector<T> value(static_cast<std::size_t>(count) * static_cast<std::size_t>(width));
+  if (count == 0)
+    return value;
+  Handle const dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  check(dataset >= 0, "find " + name);
+  Handle const file_space(H5Dget_space(dataset), H5Sclose);
+  int const rank = width == 1 ? 1 : 2;
+  hsize_t shape[2] = {0, 1};
+  check(H5Sget_simple_extent_ndims(file_space) == rank, "read " + name + ": it has another shape");
+  H5Sget_simple_extent_dims(file_space, shape, nullptr);
+  check(shape[1] == static_cast<hsize_t>(width) && static_cast<hsize_t>(first + count) <= shape[0],
+        "read " + name + ": it is too short or has another width");
+  hsize_t const start[2] = {static_cast<hsize_t>(first), 0};
+  hsize_t const extent[2] = {static_cast<hsize_t>(count), static_cast<hsize_t>(width)};
+  H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start, nullptr, extent, nullptr);
+  Handle const memory_space(H5Screate_simple(rank, extent, nullptr), H5Sclose);
+  check(H5Dread(dataset, typeOf<T>(), memory_space, file_space, H5P_DEFAULT, value.data()) >= 0, "read " + name);
+  return value;
+}
+
+template <class T>
+T Hdf5File::readAttribute(std::string const &object, std::string const &name) const
+{
+  T value{};
+  Handle const attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  check(attribute >= 0 && H5Aread(attribute, typeOf<T>(), &value) >= 0, "read attribute " + object + ":" + name);
+  return value;
+}
+
+std::string Hdf5File::readText(std::string const &name) const
+{
+  Handle const dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  check(dataset >= 0, "find " + name);
+  Handle const type(H5Dget_type(dataset), H5Tclose);
+  check(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0, "read " + name + ": it is no fixed text");
+  std::vector<char> text(H5Tget_size(type) + 1, '\0');
+  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0, "read " + name);
+  return text.data();
+}
+
+bool Hdf5File::exists(std::string const &name) const
+{
+  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+long long Hdf5File::rows(std::string const &name) const
+{
+  if (!exists(name))
+    return 0;
+  Handle const dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  check(dataset >= 0, "find " + name);
+  Handle const space(H5Dget_space(dataset), H5Sclose);
+  hsize_t shape[2] = {0, 0};
+  int const rank = H5Sget_simple_extent_ndims(space);
+  check(rank == 1 || rank == 2, "read " + name + ": it has another shape");
+  H5Sget_simple_extent_dims(space, shape, nullptr);
+  return static_cast<long long>(shape[0]);
+}
+
+#define HARMOS_INSTANTIATE_HDF5(T)                                                                                     \
+  template void Hdf5File::write(std::string const &, std::vector<T> const &, int, long long, long long);               \
+  template void Hdf5File::writeAttribute(std::string const &, std::string const &, T);                                 \
+  template std::vector<T> Hdf5File::read(std::string const &, int, long long, long long) const;                        \
+  template T Hdf5File::readAttribute(std::string const &, std::string const &) const;
+HARMOS_INSTANTIATE_HDF5(double)
+HARMOS_INSTANTIATE_HDF5(int)
+HARMOS_INSTANTIATE_HDF5(long long)
+HARMOS_INSTANTIATE_HDF5(unsigned long long)
+#undef HARMOS_INSTANTIATE_HDF5
+
+} // namespace Harmos

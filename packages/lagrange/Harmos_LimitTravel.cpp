@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_Lagrange.hpp>
+
+#include <detail/Harmos_JoinReducer.hpp>
+
+namespace Harmos
+{
+namespace
+{
+
+constexpr double largest_part_of_altitude = 0.9;
+
+/// Largest dt |v| / (0.9 altitude) of the dof nodes.
+double largestCrossing(NodeMaterialPairs const &dof_nodes, double dt, LagrangeWork const &work)
+{
+  auto const half = work.half;
+  auto const altitude = work.node_altitude;
+  double squared = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::lagrange::largestCrossing", RangePolicy(0, dof_nodes.num_dof_nodes),
+      KOKKOS_LAMBDA(int dof, double &largest) {
+        double const limit = largest_part_of_altitude * altitude(dof_nodes.node(dof));
+        double const travel2 = dt * dt * (half(dof, 0) * half(dof, 0) + half(dof, 1) * half(dof, 1));
+        if (travel2 > largest * (limit * limit))
+          largest = travel2 / (limit * limit);
+      },
+      Kokkos::Max<double>(squared));
+  return std::sqrt(squared);
+}
+
+/// Velocities that change, everything by gathering: no dof node writes another's.
+struct SlowLight
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  NodeMaterialPairs dof_nodes;
+  View<Material *> materials;
+  BoundaryConditions boundary;
+  View<double *[num_pair_fields]> record;
+  View<double *> dof_mass;
+  View<double *[2]> half;
+  View<double *> altitude;
+  View<int *> slowed_with; // dof nodes: the pair whose mean velocity a slowed one takes, else -1
+  double dt;
+  double light_node;
+
+  KOKKOS_INLINE_FUNCTION Vector2 velocity(int dof) const { return {half(dof, 0), half(dof, 1)}; }
+
+  KOKKOS_INLINE_FUNCTION Vector2 project(int dof, Vector2 const &change) const
+  {
+    int const condition = boundary.node_index(dof_nodes.node(dof));
+    return condition < 0 ? change : boundary.condition(condition).project(change);
+  }
+
+  /// The heaviest pair around a dof node that is light and too fast (ties: the first); else -1.
+  KOKKOS_INLINE_FUNCTION int heaviestPair(int dof) const
+  {
+    int const node = dof_nodes.node(dof);
+    int const own = dof_nodes.material(dof);
+    if (dt * norm(velocity(dof)) <= largest_part_of_altitude * altitude(node))
+      return -1;
+    int best = -1;
+    for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
+    {
+      int const cell = mesh.node_cell.item(i) / 4;
+      for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
+      {
+        if (own >= 0 && pairs.material(pair) != own)
+          continue;
+        if (materials(pairs.material(pair)).rigid_body >= 0)
+          return -1;
+        if (best < 0 || record(pair, Mass) > record(best, Mass))
+          best = pair;
+      }
+    }
+    if (best < 0)
+      return -1;
+    double const full = mesh.cell_area(pairs.cell(best)) / record(best, SpecificVolume);
+    return dof_mass(dof) < light_node * full ? best : -1;
+  }
+
+  struct PairMean
+  {
+    Vector2 velocity = {0.0, 0.0}; // over its free nodes and those slowed with it
+    Vector2 surplus = {0.0, 0.0};  // momentum that slowing takes from the slowed ones
+    double free_mass = 0.0;        // of the nodes that are not slowed
+  };
+
+  KOKKOS_INLINE_FUNCTION PairMean pairMean(int pair) const
+  {
+    PairMean mean;
+    double mass = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = pairs.dof_node(pair, k);
+      if (slowed_with(dof) >= 0 && slowed_with(dof) != pair)
+        continue;
+      mean.velocity += dof_mass(dof) * velocity(dof);
+      mass += dof_mass(dof);
+      if (slowed_with(dof) < 0)
+        mean.free_mass += dof_mass(dof);
+    }
+    mean.velocity *= mass > 0.0 ? 1.0 / mass : 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = pairs.dof_node(pair, k);
+      if (slowed_with(dof) == pair)
+        mean.surplus += dof_mass(dof) * project(dof, velocity(dof) - mean.velocity);
+    }
+    return mean;
+  }
+
+  /// The change of velocity that a dof node takes, before its node condition.
+  KOKKOS_INLINE_FUNCTION Vector2 change(int dof) const
+  {
+    if (slowed_with(dof) >= 0)
+      return pairMean(slowed_with(dof)).velocity - velocity(dof);
+    Vector2 sum{0.0, 0.0};
+    int const node = dof_nodes.node(dof);
+    int const own = dof_nodes.material(dof);
+    for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
+    {
+      int const cell = mesh.node_cell.item(i) / 4;
+      for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
+      {
+        if ((own >= 0 && pairs.material(pair) != own) || !slowsAny(pair))
+          continue;
+        PairMean const mean = pairMean(pair);
+        if (mean.free_mass > 0.0)
+          sum += (1.0 / mean.free_mass) * mean.surplus;
+      }
+    }
+    return sum;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool slowsAny(int pair) const
+  {
+    bool slows = false;
+    for (int k = 0; k < 4; ++k)
+      slows = slows || slowed_with(pairs.dof_node(pair, k)) == pair;
+    return slows;
+  }
+};
+
+struct SlowSums : TravelReport
+{
+  KOKKOS_INLINE_FUNCTION void join(SlowSums const &other)
+  {
+    limited += other.limited;
+    wall_impulse += other.wall_impulse;
+    energy_loss += other.energy_loss;
+  }
+};
+
+/// Slow the marked dof nodes; sums over owned nodes.
+SlowSums slowMarked(SlowLight const &slow, View<double *[2]> const &initial, LagrangeWork &work)
+{
+  int const count = slow.dof_nodes.num_dof_nodes;
+  View<double *[2]> const changed("Harmos::lagrange::changed", work.half.extent(0));
+  auto const predicted = work.predicted;
+  SlowSums result;
+  Kokkos::parallel_reduce(
+      "Harmos::lagrange::slowLight", RangePolicy(0, count),
+      KOKKOS_LAMBDA(int dof, SlowSums &sums) {
+        Vector2 const before = slow.velocity(dof);
+        Vector2 const wanted = slow.change(dof);
+        Vector2 const change = slow.project(dof, wanted);
+        Vector2 const after = before + change;
+        changed(dof, 0) = after[0];
+        changed(dof, 1) = after[1];
+        bool const slowed = slow.slowed_with(dof) >= 0;
+        if (!slow.mesh.node_owned(slow.dof_nodes.node(dof)) || !(slowed || dot(wanted, wanted) > 0.0))
+          return;
+        double const mass = slow.dof_mass(dof);
+        // what other impulses did at this node counted half the old velocity: half their change belongs here
+        Vector2 const other{before[0] - predicted(dof, 0), before[1] - predicted(dof, 1)};
+        Vector2 const sum{initial(dof, 0) + after[0], initial(dof, 1) + after[1]};
+        sums.energy_loss -= 0.5 * mass * (dot(change, sum) + dot(other, change));
+        sums.limited += slowed;
+        if (!slowed)
+          sums.wall_impulse += mass * (change - wanted);
+      },
+      detail::JoinReducer<SlowSums>(result));
+  Kokkos::deep_copy(work.half, changed);
+  return result;
+}
+
+} // namespace
+
+TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                         PairState const &state, BoundaryConditions const &boundary, View<Material *> const &materials,
+                         LagrangeOptions const &options, double dt, LagrangeWork &work)
+{
+  TravelReport report;
+  report.largest_ratio = largestCrossing(dof_nodes, dt, work);
+  if (!(report.largest_ratio > 1.0))
+    return report;
+  View<int *> const slowed_with("Harmos::lagrange::slowed_with", dof_nodes.num_dof_nodes);
+  SlowLight const slow{mesh,          pairs,     dof_nodes,          materials,   boundary, state.record,
+                       work.dof_mass, work.half, work.node_altitude, slowed_with, dt,       options.light_node};
+  Kokkos::parallel_for(
+      "Harmos::lagrange::markLight", RangePolicy(0, dof_nodes.num_dof_nodes),
+      KOKKOS_LAMBDA(int dof) { slowed_with(dof) = slow.heaviestPair(dof); });
+  report = slowMarked(slow, state.velocity, work);
+  report.largest_ratio = largestCrossing(dof_nodes, dt, work);
+  return report;
+}
+
+} // namespace Harmos

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_PAIR_ACCESS_HPP
+#define HARMOS_PAIR_ACCESS_HPP
+
+#include <Harmos_Lagrange.hpp>
+
+#include <detail/Harmos_PairPhysics.hpp>
+
+namespace Harmos
+{
+namespace detail
+{
+
+/// Positions of a cell's corners.
+KOKKOS_INLINE_FUNCTION Corners<double> cellCorners(Mesh const &mesh, int cell)
+{
+  Corners<double> c;
+  for (int k = 0; k < 4; ++k)
+  {
+    int const node = mesh.cell_node(cell, k);
+    c.x[k] = mesh.node_position(node, 0);
+    c.y[k] = mesh.node_position(node, 1);
+  }
+  return c;
+}
+
+/// A velocity at the four dof nodes of a pair.
+KOKKOS_INLINE_FUNCTION Corners<double> cornerVelocities(CellMaterialPairs const &pairs,
+                                                        View<double *[2]> const &velocity, int pair)
+{
+  Corners<double> c;
+  for (int k = 0; k < 4; ++k)
+  {
+    int const dof = pairs.dof_node(pair, k);
+    c.x[k] = velocity(dof, 0);
+    c.y[k] = velocity(dof, 1);
+  }
+  return c;
+}
+
+KOKKOS_INLINE_FUNCTION PairRecord<double> loadRecord(View<double *[num_pair_fields]> const &record, int pair)
+{
+  PairRecord<double> r;
+  r.mass = record(pair, Mass);
+  r.specific_volume = record(pair, SpecificVolume);
+  r.internal_energy = record(pair, InternalEnergy);
+  r.plastic_strain = record(pair, PlasticStrain);
+  r.deviator = {record(pair, DeviatorXX), record(pair, DeviatorYY), record(pair, DeviatorXY)};
+  return r;
+}
+
+KOKKOS_INLINE_FUNCTION double largestSpeedSquared(Corners<double> const &v)
+{
+  double largest = 0.0;
+  for (int k = 0; k < 4; ++k)
+    largest = Math::max(largest, v.x[k] * v.x[k] + v.y[k] * v.y[k]);
+  return largest;
+}
+
+/// The same over the dof nodes that are not lighter than `least_mass`.
+KOKKOS_INLINE_FUNCTION double largestHeavySpeedSquared(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
+                                                       int pair, Corners<double> const &v, double least_mass)
+{
+  double largest = 0.0;
+  for (int k = 0; k < 4; ++k)
+    if (dof_mass(pairs.dof_node(pair, k)) >= least_mass)
+      largest = Math::max(largest, v.x[k] * v.x[k] + v.y[k] * v.y[k]);
+  return largest;
+}
+
+/// 1 / dt of a pair: the larger of acoustic / courant and the travel's |v| / (largest_travel l).
+///
+/// A full dof node has mass area / sv; light ones are left out of the travel. Rigid pairs: acoustic = 0, least_mass =
+/// 0.
+KOKKOS_INLINE_FUNCTION double pairRate(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
+                                       LagrangeOptions const &options, int pair, Corners<double> const &v,
+                                       double inverse_length_squared, double acoustic, double least_mass)
+{
+  double const rate = acoustic / options.courant;
+  double const scale = inverse_length_squared / (options.largest_travel * options.largest_travel);
+  if (largestSpeedSquared(v) * scale <= rate * rate)
+    return rate;
+  double const speed2 =
+      least_mass > 0.0 ? largestHeavySpeedSquared(pairs, dof_mass, pair, v, least_mass) : largestSpeedSquared(v);
+  return Math::max(rate, Math::sqrt(speed2 * scale));
+}
+
+/// 1 / dt of a rigid pair: its travel through the unmoved cell.
+KOKKOS_INLINE_FUNCTION double rigidPairRate(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
+                                            LagrangeOptions const &options, int pair, Corners<double> const &x,
+                                            Corners<double> const &v)
+{
+  MeanGradient<double> const b = meanGradient(x);
+  return pairRate(pairs, dof_mass, options, pair, v, longestMidlineSquared(b) / (b.area * b.area), 0.0, 0.0);
+}
+
+} // namespace detail
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_EquationOfState.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+
+namespace
+{
+
+Material copper()
+{
+  Material m;
+  m.eos = EosKind::MieGruneisen;
+  m.density0 = 8930.0;
+  m.sound_speed0 = 3940.0;
+  m.slope = 1.489;
+  m.gruneisen = 2.02;
+  m.energy0 = 1.0e3;
+  return m;
+}
+
+Material stiff()
+{
+  Material m = copper();
+  m.eos = EosKind::Stiffened;
+  return m;
+}
+
+Material gas()
+{
+  Material m;
+  m.eos = EosKind::IdealGas;
+  m.gruneisen = 1.4;
+  m.density0 = 1.0;
+  return m;
+}
+
+/// c^2 = dp/drho|_e + (p / rho^2) dp/de|_rho by central differences.
+double soundSpeedSquaredByDifferences(Material const &m, double sv, double e)
+{
+  double const rho = 1.0 / sv;
+  double const drho = 1e-5 * rho;
+  double const de = 1e-4 * (std::fabs(e) + 1e4);
+  double const p_rho =
+      (equationOfState(m, 1.0 / (rho + drho), e).pressure - equationOfState(m, 1.0 / (rho - drho), e).pressure) /
+      (2.0 * drho);
+  double const p_e = (equationOfState(m, sv, e + de).pressure - equationOfState(m, sv, e - de).pressure) / (2.0 * de);
+  return p_rho + equationOfState(m, sv, e).pressure / (rho * rho) * p_e;
+}
+
+} // namespace
+
+TEST(EquationOfState, AllKinds_soundSpeedMatchesDifferencesOfPressure)
+{
+  for (Material const &m : {copper(), stiff()})
+    for (double const compression : {0.8, 0.95, 1.05, 1.3, 1.6})
+      for (double const e : {0.0, 1e5, 2e6})
+      {
+        double const sv = 1.0 / (compression * m.density0);
+        double const c2 = equationOfState(m, sv, e).sound_speed_squared;
+        EXPECT_NEAR(c2 / soundSpeedSquaredByDifferences(m, sv, e), 1.0, 2e-7) << compression << " " << e;
+      }
+  EXPECT_NEAR(equationOfState(gas(), 0.5, 2e5).sound_speed_squared / soundSpeedSquaredByDifferences(gas(), 0.5, 2e5),
+              1.0, 1e-7);
+}
+
+TEST(EquationOfState, ReferenceState_hasNoPressureAndSoundSpeedC0)
+{
+  for (Material const &m : {copper(), stiff()})
+  {
+    auto const state = equationOfState(m, 1.0 / m.density0, m.energy0);
+    EXPECT_NEAR(state.pressure, 0.0, 1e-3);
+    EXPECT_NEAR(state.sound_speed_squared / (m.sound_speed0 * m.sound_speed0), 1.0, 1e-12);
+  }
+}
+
+TEST(EquationOfState, MieGruneisen_isContinuousWithItsSlopeAtTheReferenceDensity)
+{
+  Material const m = copper();
+  double const e = 3e5;
+  double const sv = 1.0 / m.density0;
+  auto const left = equationOfState(m, sv * (1.0 - 1e-9), e);
+  auto const right = equationOfState(m, sv * (1.0 + 1e-9), e);
+  EXPECT_NEAR(left.pressure / right.pressure, 1.0, 1e-6);
+  EXPECT_NEAR(left.sound_speed_squared / right.sound_speed_squared, 1.0, 1e-7);
+}
+
+TEST(EquationOfState, MieGruneisen_shockStatesLieOnTheHugoniot)
+{
+  // rho0 Us = rho (Us - u), P = rho0 Us u, e - e0 = u^2 / 2
+  Material const m = copper();
+  for (double const u : {500.0, 3320.0})
+  {
+    double const shock = m.sound_speed0 + m.slope * u;
+    double const sv = (shock - u) / (shock * m.density0);
+    double const expected = m.density0 * shock * u;
+    EXPECT_NEAR(equationOfState(m, sv, m.energy0 + 0.5 * u * u).pressure / expected, 1.0, 1e-12);
+    EXPECT_TRUE(eosInRange(m, sv));
+  }
+  // copper on copper at 1 km/s: 20.92 GPa
+  double const shock = m.sound_speed0 + m.slope * 500.0;
+  EXPECT_NEAR(m.density0 * shock * 500.0, 20.92e9, 0.01e9);
+}
+
+TEST(EquationOfState, MieGruneisen_pastThePoleStaysFiniteAndIsOutOfRange)
+{
+  Material const m = copper();
+  double const sv = (1.0 - 1.0 / m.slope) / m.density0;
+  auto const state = equationOfState(m, sv, 0.0);
+  EXPECT_TRUE(std::isfinite(state.pressure) && std::isfinite(state.sound_speed_squared));
+  EXPECT_GT(state.pressure, 0.0);
+  EXPECT_FALSE(eosInRange(m, sv));
+  EXPECT_FALSE(eosInRange(m, -sv));
+  EXPECT_TRUE(eosInRange(stiff(), sv));
+}
+
+TEST(EquationOfState, StrongTension_keepsASoundSpeed)
+{
+  Material const m = copper();
+  auto const state = equationOfState(m, 3.0 / m.density0, 0.0);
+  EXPECT_LT(state.pressure, 0.0);
+  EXPECT_DOUBLE_EQ(state.sound_speed_squared, 1e-4 * m.sound_speed0 * m.sound_speed0);
+}
+
+TEST(EquationOfState, StiffenedWithoutGruneisen_isLinearInDensity)
+{
+  Material m = stiff();
+  m.gruneisen = 0.0;
+  for (double const mu : {-0.3, 0.0, 0.2})
+  {
+    auto const state = equationOfState(m, 1.0 / (m.density0 * (1.0 + mu)), 5e5);
+    EXPECT_NEAR(state.pressure, m.density0 * m.sound_speed0 * m.sound_speed0 * mu, 1.0);
+    EXPECT_DOUBLE_EQ(state.sound_speed_squared, m.sound_speed0 * m.sound_speed0);
+  }
+}
+
+TEST(LongitudinalSoundSpeed, SixtySixtyOne_is6409MetresPerSecond)
+{
+  Material m;
+  m.density0 = 2703.0;
+  m.sound_speed0 = 5240.0;
+  m.shear_modulus = 27.6e9;
+  double const c2 = m.sound_speed0 * m.sound_speed0;
+  EXPECT_DOUBLE_EQ(longitudinalSoundSpeedSquared(m, c2, 1.0 / m.density0), c2); // no strength
+  m.strength = StrengthKind::Plastic;
+  EXPECT_NEAR(std::sqrt(longitudinalSoundSpeedSquared(m, c2, 1.0 / m.density0)), 6409.0, 0.5);
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_HostMesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace Harmos
+{
+
+namespace
+{
+
+[[noreturn]] void fail(std::string const &message)
+{
+  throw std::runtime_error(message);
+}
+
+/// For checks that are made a few times only: the message is made whether or not the condition holds.
+void require(bool condition, std::string const &message)
+{
+  if (!condition)
+    fail(message);
+}
+
+double turn(Corner const &a, Corner const &b, Corner const &c)
+{
+  return (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+}
+
+/// Corner of a quadrilateral that does not turn strictly left, or -1. Catches not-a-number as well.
+int badCorner(std::array<Corner, 4> const &q)
+{
+  for (int k = 0; k < 4; ++k)
+    if (!(turn(q[(k + 3) % 4], q[k], q[(k + 1) % 4]) > 0.0))
+      return k;
+  return -1;
+}
+
+std::string text(Corner const &point)
+{
+  return "(" + std::to_string(point[0]) + ", " + std::to_string(point[1]) + ")";
+}
+
+/// Largest signed distance, over the edges of a, of the nearest corner of b: positive where an edge of a separates.
+double separation(std::array<Corner, 4> const &a, std::array<Corner, 4> const &b)
+{
+  double largest = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 4; ++k)
+  {
+    Corner const &from = a[k];
+    Corner const &to = a[(k + 1) % 4];
+    double const length = std::hypot(to[0] - from[0], to[1] - from[1]);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Corner const &point : b)
+      nearest =
+          std::min(nearest, ((to[1] - from[1]) * (point[0] - from[0]) - (to[0] - from[0]) * (point[1] - from[1])));
+    largest = std::max(largest, nearest / length);
+  }
+  return largest;
+}
+
+/// Cells of an (nx + 1) x (ny + 1) row-wise grid of nodes that starts at `first_node`.
+void appendGrid(HostMesh &mesh, int nx, int ny, int first_node, int first_boundary)
+{
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+    {
+      int const n = first_node + j * (nx + 1) + i;
+      mesh.cell.push_back({n, n + 1, n + nx + 2, n + nx + 1});
+      mesh.face_boundary.push_back({j == 0 ? first_boundary + 2 : -1, i == nx - 1 ? first_boundary + 1 : -1,
+                                    j == ny - 1 ? first_boundary + 3 : -1, i == 0 ? first_boundary : -1});
+    }
+}
+
+void requireAscending(std::vector<double> const &x, std::string const &name)
+{
+  require(x.size() >= 2,
+          "rectilinear mesh: " + name + " needs at least two coordinates, has " + std::to_string(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    require(std::isfinite(x[i]), "rectilinear mesh: " + name + "[" + std::to_string(i) + "] is not finite");
+    require(i == 0 || x[i] > x[i - 1], "rectilinear mesh: " + name + "[" + std::to_string(i) +
+                                           "] = " + std::to_string(x[i]) + " is not above " + std::to_string(x[i - 1]));
+  }
+}
+
+void requireBlock(std::vector<MappedBlock> const &blocks, std::size_t b)
+{
+  std::string const name = "block " + std::to_string(b);
+  MappedBlock const &block = blocks[b];
+  require(block.cells[0] > 0 && block.cells[1] > 0, name + ": needs at least one cell in each direction");
+  int const bad = badCorner(block.corner);
+  require(bad < 0, name + ": corner " + std::to_string(bad) + " at " + text(block.corner[bad < 0 ? 0 : bad]) +
+                       " is not strictly convex (corners run counter-clockwise)");
+  double const size = std::hypot(block.corner[2][0] - block.corner[0][0], block.corner[2][1] - block.corner[0][1]);
+  for (std::size_t other = 0; other < b; ++other)
+    require(std::max(separation(block.corner, blocks[other].corner), separation(blocks[other].corner, block.corner)) >=
+                -1e-10 * size,
+            name + " overlaps block " + std::to_string(other));
+}
+
+/// Of the other cells at a face a -> b, none may run along it a -> b and one at most b -> a.
+void checkFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int face)
+{
+  int const a = mesh.cell[cell][face];
+  int const b = mesh.cell[cell][(face + 1) % 4];
+  int same_way = 0;
+  int other_way = 0;
+  for (int i = node_cell.offset[a]; i < node_cell.offset[a + 1]; ++i)
+  {
+    std::array<int, 4> const &nodes = mesh.cell[node_cell.item[i] / 4];
+    int const corner = node_cell.item[i] % 4;
+    same_way += nodes[(corner + 1) % 4] == b ? 1 : 0;
+    other_way += nodes[(corner + 3) % 4] == b ? 1 : 0;
+  }
+  if (same_way > 1 || other_way > 1)
+    fail("cell " + std::to_string(cell) + ": face " + std::to_string(face) + " is shared wrongly");
+  if (other_way == 1 && mesh.face_boundary[cell][face] >= 0)
+    fail("cell " + std::to_string(cell) + ": inner face " + std::to_string(face) + " lies on boundary " +
+         std::to_string(mesh.face_boundary[cell][face]));
+}
+
+} // namespace
+
+HostRows cellsAroundNodes(HostMesh const &mesh)
+{
+  HostRows rows;
+  rows.offset.assign(mesh.node.size() + 1, 0);
+  for (auto const &nodes : mesh.cell)
+    for (int const node : nodes)
+      ++rows.offset[node + 1];
+  for (std::size_t i = 0; i < mesh.node.size(); ++i)
+    rows.offset[i + 1] += rows.offset[i];
+  rows.item.resize(rows.offset.back());
+  std::vector<int> next(rows.offset.begin(), rows.offset.end() - 1);
+  for (std::size_t c = 0; c < mesh.cell.size(); ++c)
+    for (int k = 0; k < 4; ++k)
+      rows.item[next[mesh.cell[c][k]]++] = static_cast<int>(4 * c) + k;
+  return rows;
+}
+
+int oppositeFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int face)
+{
+  int const a = mesh.cell[cell][face];
+  int const b = mesh.cell[cell][(face + 1) % 4];
+  for (int i = node_cell.offset[a]; i < node_cell.offset[a + 1]; ++i)
+  {
+    int const other = node_cell.item[i] / 4;
+    int const corner = node_cell.item[i] % 4;
+    int const before = (corner + 3) % 4;
+    if (other != cell && mesh.cell[other][before] == b)
+      return 4 * other + before;
+  }
+  return -1;
+}
+
+void checkHostMesh(HostMesh const &mesh)
+{
+  int const num_nodes = static_cast<int>(mesh.node.size());
+  int const num_cells = static_cast<int>(mesh.cell.size());
+  require(mesh.face_boundary.size() == mesh.cell.size(), "mesh: " + std::to_string(num_cells) +
+                                                             " cells but boundary numbers of " +
+                                                             std::to_string(mesh.face_boundary.size()));
+  for (int c = 0; c < num_cells; ++c)
+  {
+    std::array<Corner, 4> q;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const node = mesh.cell[c][k];
+      if (node < 0 || node >= num_nodes)
+        fail("cell " + std::to_string(c) + ": node " + std::to_string(node) + " is not in [0, " +
+             std::to_string(num_nodes) + ")");
+      q[k] = mesh.node[node];
+    }
+    int const bad = badCorner(q);
+    if (bad >= 0)
+      fail("cell " + std::to_string(c) + ": corner " + std::to_string(bad) + " at " + text(q[bad]) +
+           " is not strictly convex");
+  }
+  HostRows const node_cell = cellsAroundNodes(mesh);
+  for (int n = 0; n < num_nodes; ++n)
+    if (node_cell.offset[n] == node_cell.offset[n + 1])
+      fail("node " + std::to_string(n) + ": no cell touches it");
+  for (int c = 0; c < num_cells; ++c)
+    for (int k = 0; k < 4; ++k)
+      checkFace(mesh, node_cell, c, k);
+}
+
+HostMesh rectilinearMesh(std::vector<double> const &x, std::vector<double> const &y)
+{
+  requireAscending(x, "x");
+  requireAscending(y, "y");
+  HostMesh mesh;
+  mesh.node.reserve(x.size() * y.size());
+  for (double const yj : y)
+    for (double const xi : x)
+      mesh.node.push_back({xi, yj});
+  appendGrid(mesh, static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1, 0, 0);
+  return mesh;
+}
+
+std::vector<double> gradedCoordinates(double from, double to, int cells, double ratio)
+{
+  require(cells >= 1, "graded coordinates: cells = " + std::to_string(cells) + " < 1");
+  require(std::isfinite(from) && std::isfinite(to) && to > from,
+          "graded coordinates: " + std::to_string(to) + " is not above " + std::to_string(from));
+  require(std::isfinite(ratio) && ratio > 0.0, "graded coordinates: ratio = " + std::to_string(ratio) + " <= 0");
+  std::vector<double> x(cells + 1);
+  double const q = cells > 1 ? std::pow(ratio, 1.0 / (cells - 1)) : 1.0;
+  std::vector<double> sum(cells + 1, 0.0);
+  double size = 1.0;
+  for (int i = 0; i < cells; ++i, size *= q)
+    sum[i + 1] = ratio == 1.0 ? i + 1.0 : sum[i] + size;
+  for (int i = 0; i < cells; ++i)
+    x[i] = from + (to - from) * (sum[i] / sum[cells]);
+  x[cells] = to;
+  return x;
+}
+
+BlockMesh mappedBlocks(std::vector<MappedBlock> const &blocks)
+{
+  require(!blocks.empty(), "mapped blocks: there are none");
+  BlockMesh result;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    requireBlock(blocks, b);
+    std::array<Corner, 4> const &corner = blocks[b].corner;
+    int const nx = blocks[b].cells[0];
+    int const ny = blocks[b].cells[1];
+    int const first_node = static_cast<int>(result.mesh.node.size());
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i)
+      {
+        double const xi = static_cast<double>(i) / nx;
+        double const eta = static_cast<double>(j) / ny;
+        double const N[4] = {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
+        Corner point{0.0, 0.0};
+        for (int d = 0; d < 2; ++d)
+          for (int k = 0; k < 4; ++k)
+            point[d] += N[k] * corner[k][d];
+        result.mesh.node.push_back(point);
+      }
+    appendGrid(result.mesh, nx, ny, first_node, static_cast<int>(4 * b));
+    result.cell_block.resize(result.mesh.cell.size(), static_cast<int>(b));
+  }
+  checkHostMesh(result.mesh);
+  return result;
+}
+
+} // namespace Harmos

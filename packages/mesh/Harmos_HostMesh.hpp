@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_HOST_MESH_HPP
+#define HARMOS_HOST_MESH_HPP
+
+#include <array>
+#include <vector>
+
+namespace Harmos
+{
+
+/// A whole mesh of bilinear quadrilaterals on the host: what generators make and partitioners read.
+///
+/// Every rank holds the whole of it while it sets up; Harmos_MeshBuilder.hpp makes the local meshes from it.
+struct HostMesh
+{
+  std::vector<std::array<double, 2>> node;       // positions [length]
+  std::vector<std::array<int, 4>> cell;          // nodes, counter-clockwise; face k joins nodes k and (k + 1) % 4
+  std::vector<std::array<int, 4>> face_boundary; // boundary number of each face, -1: inside or free
+};
+
+/// Which cells touch each node: compressed rows over nodes, items 4 * cell + corner, ascending.
+struct HostRows
+{
+  std::vector<int> offset; // rows + 1
+  std::vector<int> item;
+};
+
+/// Cells around the nodes of a whole mesh.
+HostRows cellsAroundNodes(HostMesh const &mesh);
+
+/// The face (4 * cell + face number) on the other side of a cell's face, or -1.
+int oppositeFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int face);
+
+/// \throw std::runtime_error naming the cell: a node number out of range, a corner that is not strictly convex
+///        (so that the area is positive), a face that more than two cells or two of the same orientation share, a
+///        boundary number on an inner face, arrays of different lengths; or the node that no cell touches.
+void checkHostMesh(HostMesh const &mesh);
+
+/// Cells between coordinate lines, numbered row by row from the lower left.
+///
+/// \param x, y  Strictly ascending, two or more values each. [length]
+/// Boundary numbers: 0 left (least x), 1 right, 2 bottom (least y), 3 top. \throw std::runtime_error
+HostMesh rectilinearMesh(std::vector<double> const &x, std::vector<double> const &y);
+
+/// cells + 1 coordinates in geometric progression: h_{i+1} = h_i ratio^(1 / (cells - 1)).
+///
+/// \param ratio  Last over first cell size, > 0; 1 is uniform. Both ends are exact. \throw std::runtime_error
+std::vector<double> gradedCoordinates(double from, double to, int cells, double ratio);
+
+using Corner = std::array<double, 2>;
+
+/// A quadrilateral to be meshed bilinearly: x(xi, eta) = sum N_I(xi, eta) corner_I.
+struct MappedBlock
+{
+  std::array<Corner, 4> corner; // counter-clockwise, strictly convex [length]
+  std::array<int, 2> cells;     // along corner 0 -> 1 and along corner 0 -> 3
+};
+
+struct BlockMesh
+{
+  HostMesh mesh;
+  std::vector<int> cell_block; // number of each cell's block
+};
+
+/// Structured blocks that share no nodes (body-fitted meshes, kinematics `lagrangian`).
+///
+/// Cells and nodes are numbered block by block, row-wise within a block. Boundary numbers: 4 * block + side, side 0
+/// left (corners 3, 0), 1 right (1, 2), 2 bottom (0, 1), 3 top (2, 3).
+/// \throw std::runtime_error where a block is not strictly convex, has no cells, or overlaps another (touching is
+///        allowed).
+BlockMesh mappedBlocks(std::vector<MappedBlock> const &blocks);
+
+} // namespace Harmos
+
+#endif

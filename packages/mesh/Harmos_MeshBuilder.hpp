@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_MESH_BUILDER_HPP
+#define HARMOS_MESH_BUILDER_HPP
+
+#include <Harmos_HostMesh.hpp>
+#include <Harmos_Mesh.hpp>
+
+namespace Harmos
+{
+
+/// The mesh of a serial run: everything owned, local numbers are global numbers.
+/// \throw std::runtime_error as checkHostMesh.
+Mesh buildMesh(HostMesh const &whole);
+
+/// The mesh as one rank sees it: its cells and `halo` layers of vertex neighbours, numbered in global order.
+///
+/// \param owner  Rank of each cell of the whole mesh. A rank without cells gets an empty mesh.
+/// \param halo   Layers, >= 0.
+/// A node belongs to the owner of the lowest-numbered cell around it. \throw std::runtime_error
+Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int rank, int halo);
+
+/// Cell areas from the node positions (which the caller has moved).
+void updateGeometry(Mesh &mesh);
+
+/// Number of local cells with a corner that is not strictly convex (or not a number).
+int countInvertedCells(Mesh const &mesh);
+
+/// Check geometry and connectivity of a local mesh.
+/// \throw std::runtime_error naming the (global) cell or node and the table that is wrong.
+void checkMesh(Mesh const &mesh);
+
+} // namespace Harmos
+
+#endif

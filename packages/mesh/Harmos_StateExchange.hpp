@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_STATE_EXCHANGE_HPP
+#define HARMOS_STATE_EXCHANGE_HPP
+
+#include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_Exchange.hpp>
+
+namespace Harmos
+{
+
+/// Replace the pairs of all halo cells of depth <= `depth` by their owner's, bit for bit; once a cycle.
+///
+/// A pair travels as one row of 19 doubles: material, record (8), centroid (2), velocities of its corners (8). Pairs
+/// of deeper cells vanish. Pairs, dof nodes and state come back in new views, numbered anew. A dof node's velocity is
+/// that of the first pair around it: pairs that share a dof node carry the same bits.
+/// On one rank it returns at once.
+void exchangeState(Mesh const &mesh, Kinematics kinematics, Exchange const &exchange, int depth,
+                   CellMaterialPairs &pairs, NodeMaterialPairs &dof_nodes, PairState &state);
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_BoundaryConditions.hpp>
+#include <Harmos_MeshBuilder.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace
+{
+
+using namespace Harmos;
+
+template <class V>
+auto onHost(V const &view)
+{
+  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+}
+
+View<Boundary *> boundaries(std::vector<Boundary> const &list)
+{
+  View<Boundary *> result("boundaries", list.size());
+  auto host = Kokkos::create_mirror_view(result);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    host(i) = list[i];
+  Kokkos::deep_copy(result, host);
+  return result;
+}
+
+Boundary ofKind(BoundaryKind kind, Vector2 velocity = {0.0, 0.0})
+{
+  Boundary boundary;
+  boundary.kind = kind;
+  boundary.velocity = velocity;
+  return boundary;
+}
+
+/// Conditions by node number; a count of zero where there is none.
+std::vector<NodeCondition> conditionsOf(Mesh const &mesh, std::vector<Boundary> const &list)
+{
+  BoundaryConditions const conditions = buildBoundaryConditions(mesh, boundaries(list));
+  auto const index = onHost(conditions.node_index);
+  auto const condition = onHost(conditions.condition);
+  std::vector<NodeCondition> result(mesh.num_nodes);
+  for (int n = 0; n < mesh.num_nodes; ++n)
+    if (index(n) >= 0)
+      result[n] = condition(index(n));
+  return result;
+}
+
+//  6---7---8
+//  |   |   |
+//  3---4---5     boundaries 0 left, 1 right, 2 bottom, 3 top
+//  |   |   |
+//  0---1---2
+Mesh fourCells()
+{
+  return buildMesh(rectilinearMesh({0, 1, 2}, {0, 1, 2}));
+}
+
+TEST(BuildBoundaryConditions, slipWalls_sidesKeepTheirTangentAndCornersAreFixed)
+{
+  auto const c = conditionsOf(fourCells(), std::vector<Boundary>(4));
+  EXPECT_EQ(c[4].count, 0);
+  EXPECT_EQ(c[1].count, 1);
+  EXPECT_EQ(c[0].count, 2);
+  Vector2 const v = c[1].apply({3.0, 4.0});
+  EXPECT_EQ(v[0], 3.0);
+  EXPECT_EQ(v[1], 0.0);
+  Vector2 const w = c[5].apply({3.0, 4.0});
+  EXPECT_EQ(w[0], 0.0);
+  EXPECT_EQ(w[1], 4.0);
+  Vector2 const corner = c[8].apply({3.0, 4.0});
+  EXPECT_EQ(norm(corner), 0.0);
+}
+
+TEST(BuildBoundaryConditions, contactWallsAndOutflow_leaveTheNodesFree)
+{
+  auto const c = conditionsOf(fourCells(), {ofKind(BoundaryKind::ContactWall), ofKind(BoundaryKind::Outflow),
+                                            ofKind(BoundaryKind::SlipWall), ofKind(BoundaryKind::ContactWall)});
+  EXPECT_EQ(c[3].count, 0);
+  EXPECT_EQ(c[5].count, 0);
+  EXPECT_EQ(c[7].count, 0);
+  EXPECT_EQ(c[0].count, 1);
+  EXPECT_EQ(c[2].count, 1);
+}
+
+TEST(BuildBoundaryConditions, fixedInflowAndSlipMeet_fixedGoesFirstThenInflow)
+{
+  auto const c = conditionsOf(fourCells(), {ofKind(BoundaryKind::Inflow, {5.0, 1.0}), ofKind(BoundaryKind::SlipWall),
+                                            ofKind(BoundaryKind::SlipWall), ofKind(BoundaryKind::Fixed)});
+  Vector2 const lower_left = c[0].apply({9.0, 9.0});
+  EXPECT_EQ(lower_left[0], 5.0);
+  EXPECT_EQ(lower_left[1], 1.0);
+  EXPECT_EQ(norm(c[6].apply({9.0, 9.0})), 0.0);
+  EXPECT_EQ(norm(c[8].apply({9.0, 9.0})), 0.0);
+}
+
+TEST(BuildBoundaryConditions, prescribedVelocity_onlyItsNormalPartIsUsed)
+{
+  auto const c =
+      conditionsOf(fourCells(), {ofKind(BoundaryKind::Prescribed, {-2.0, 7.0}), ofKind(BoundaryKind::SlipWall),
+                                 ofKind(BoundaryKind::SlipWall), ofKind(BoundaryKind::SlipWall)});
+  Vector2 const v = c[3].apply({1.0, 4.0});
+  EXPECT_EQ(v[0], -2.0);
+  EXPECT_EQ(v[1], 4.0);
+  Vector2 const corner = c[0].apply({1.0, 4.0});
+  EXPECT_EQ(corner[0], -2.0);
+  EXPECT_EQ(corner[1], 0.0);
+}
+
+TEST(BuildBoundaryConditions, slipWallsTurnedBy30Degrees_normalLeavesTheDomain)
+{
+  HostMesh whole = rectilinearMesh({0, 1, 2}, {0, 1, 2});
+  double const c = std::cos(Math::pi / 6.0), s = std::sin(Math::pi / 6.0);
+  for (auto &x : whole.node)
+    x = {c * x[0] - s * x[1], s * x[0] + c * x[1]};
+  auto const conditions = conditionsOf(buildMesh(whole), std::vector<Boundary>(4));
+  EXPECT_EQ(conditions[1].count, 1);
+  EXPECT_NEAR(conditions[1].normal[0][0], s, 1e-15);
+  EXPECT_NEAR(conditions[1].normal[0][1], -c, 1e-15);
+  EXPECT_NEAR(dot(conditions[1].apply({1.0, 2.0}), {s, -c}), 0.0, 1e-15);
+}
+
+TEST(BuildBoundaryConditions, edgeOfTheHalo_isNoBoundary)
+{
+  HostMesh const whole = rectilinearMesh({0, 1, 2, 3, 4}, {0, 1});
+  Mesh const mesh = buildLocalMesh(whole, {0, 0, 1, 1}, 0, 1);
+  auto const c = conditionsOf(mesh, std::vector<Boundary>(4));
+  auto const global = onHost(mesh.node_global);
+  for (int n = 0; n < mesh.num_nodes; ++n)
+    EXPECT_EQ(c[n].count, global(n) % 5 == 0 ? 2 : 1);
+}
+
+TEST(BuildBoundaryConditions, boundaryNumberWithoutABoundary_isRefused)
+{
+  EXPECT_THROW(buildBoundaryConditions(fourCells(), boundaries(std::vector<Boundary>(3))), std::runtime_error);
+}
+
+} // namespace

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_TPETRA_EXCHANGE_HPP
+#define HARMOS_TPETRA_EXCHANGE_HPP
+
+#include <Harmos_Exchange.hpp>
+
+#include <Teuchos_Comm.hpp>
+#include <Teuchos_RCP.hpp>
+
+#include <memory>
+
+namespace Harmos
+{
+
+/// How ranks talk, by Tpetra: an Import from the owned cells to owned and halo cells for each depth that is asked for.
+///
+/// Rows of any length travel through the Import's Distributor with a count for each cell. The lists of cells and the
+/// buffers are kept between calls, so that `updateRows` costs one round of messages, packing and unpacking.
+/// All methods but rank and size are collective, and a row's width is the same on all ranks. With one rank nothing
+/// is sent or copied.
+class TpetraExchange : public Exchange
+{
+public:
+  /// \param comm  The ranks that share the mesh. \param mesh  This rank's local mesh.
+  TpetraExchange(Teuchos::RCP<Teuchos::Comm<int> const> const &comm, Mesh const &mesh);
+  ~TpetraExchange() override;
+  TpetraExchange(TpetraExchange const &) = delete;
+  TpetraExchange &operator=(TpetraExchange const &) = delete;
+
+  int rank() const override;
+  int size() const override;
+
+  double min(double value) const override;
+  double max(double value) const override;
+  void sum(double *values, int count) const override;
+  void sum(long long *values, int count) const override;
+
+  /// New views are allocated for the result. \throw std::runtime_error when depth exceeds the mesh's halo, or where
+  /// the offsets are not those of the mesh's cells.
+  void exchangeRows(View<int *> &offset, View<double **> &item, int depth) const override;
+  void updateRows(View<int *> const &offset, View<double **> const &item, int depth) const override;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CELL_COMPONENTS_HPP
+#define HARMOS_CELL_COMPONENTS_HPP
+
+#include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_Moments.hpp>
+
+namespace Harmos
+{
+
+/// Void as a component of a cell.
+constexpr int void_material = -1;
+
+/// A set of a cell's components: bit k stands for component k.
+using ComponentSet = unsigned;
+
+/// What the reconstruction reads.
+struct ReconstructionField
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  View<double *[num_pair_fields]> record;
+  View<double *[2]> centroid; // read where centroids are used
+};
+
+/// Volume fraction of a material in a cell, whatever its kind; void_material gives the void's.
+KOKKOS_INLINE_FUNCTION double volumeFraction(CellMaterialPairs const &pairs,
+                                             View<double *[num_pair_fields]> const &record, int cell, int material)
+{
+  int const kind = pairs.cell_kind(cell);
+  if (kind == VoidCell)
+    return material == void_material ? 1.0 : 0.0;
+  if (kind == PureCell)
+    return material == pairs.material(pairs.offset(cell)) ? 1.0 : 0.0;
+  double filled = 0.0;
+  for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
+  {
+    if (pairs.material(pair) == material)
+      return record(pair, VolumeFraction);
+    filled += record(pair, VolumeFraction);
+  }
+  return material == void_material ? Math::max(0.0, 1.0 - filled) : 0.0;
+}
+
+/// The components of a mixed cell (its materials, ascending, then void where there is some) in the cell's own
+/// coordinates xi = (x - corner) / size, size^2 = cell area: there the cell has unit area and digits stay.
+struct CellComponents
+{
+  int cell;
+  Vector2 corner; // the cell's node 0 [length]
+  double size;    // [length]
+  Region polygon; // the cell; area 1
+  int count;
+  int material[max_components];
+  double volume[max_components];  // volume fractions
+  Vector2 centroid[max_components]; // meaningful where centroids were asked for
+
+  KOKKOS_INLINE_FUNCTION ComponentSet all() const { return (1u << count) - 1u; }
+  KOKKOS_INLINE_FUNCTION bool holds(ComponentSet set, int k) const { return (set >> k) & 1u; }
+  KOKKOS_INLINE_FUNCTION Vector2 toUnit(Vector2 const &x) const { return (1.0 / size) * (x - corner); }
+  KOKKOS_INLINE_FUNCTION Vector2 fromUnit(Vector2 const &xi) const { return corner + size * xi; }
+
+  KOKKOS_INLINE_FUNCTION double volumeOf(ComponentSet set) const
+  {
+    double sum = 0.0;
+    for (int k = 0; k < count; ++k)
+      sum += holds(set, k) ? volume[k] : 0.0;
+    return sum;
+  }
+
+  /// Volume-weighted sum of the centroids of a set.
+  KOKKOS_INLINE_FUNCTION Vector2 firstMomentOf(ComponentSet set) const
+  {
+    Vector2 sum{0.0, 0.0};
+    for (int k = 0; k < count; ++k)
+      if (holds(set, k))
+        sum += volume[k] * centroid[k];
+    return sum;
+  }
+
+  KOKKOS_INLINE_FUNCTION ComponentSet setOfMaterial(int of_material) const
+  {
+    for (int k = 0; k < count; ++k)
+      if (material[k] == of_material)
+        return 1u << k;
+    return 0u;
+  }
+};
+
+/// Void counts as a component when more than this part of the cell is not filled.
+constexpr double least_void = 1e-14;
+
+KOKKOS_INLINE_FUNCTION bool hasVoid(ReconstructionField const &field, int cell)
+{
+  double filled = 0.0;
+  for (int pair = field.pairs.offset(cell); pair < field.pairs.offset(cell + 1); ++pair)
+    filled += field.record(pair, VolumeFraction);
+  return 1.0 - filled > least_void;
+}
+
+/// Number of components of a mixed cell.
+KOKKOS_INLINE_FUNCTION int componentCount(ReconstructionField const &field, int cell)
+{
+  return field.pairs.offset(cell + 1) - field.pairs.offset(cell) + (hasVoid(field, cell) ? 1 : 0);
+}
+
+/// \pre componentCount(field, cell) <= max_components.
+/// \param with_centroids Read the pairs' centroids; the void's is what they leave of the cell's first moment.
+KOKKOS_INLINE_FUNCTION CellComponents cellComponents(ReconstructionField const &field, int cell, bool with_centroids)
+{
+  Quadrilateral const quad = cellQuadrilateral(field.mesh, cell);
+  CellComponents c;
+  c.cell = cell;
+  c.corner = quad[0];
+  c.size = Math::sqrt(area(quad));
+  for (int k = 0; k < 4; ++k)
+    c.polygon.push(c.toUnit(quad[k]));
+  c.count = 0;
+  double filled = 0.0;
+  Vector2 first{0.0, 0.0};
+  for (int pair = field.pairs.offset(cell); pair < field.pairs.offset(cell + 1); ++pair)
+  {
+    int const k = c.count++;
+    c.material[k] = field.pairs.material(pair);
+    c.volume[k] = field.record(pair, VolumeFraction);
+    filled += c.volume[k];
+    c.centroid[k] = {0.0, 0.0};
+    if (with_centroids)
+    {
+      c.centroid[k] = c.toUnit({field.centroid(pair, 0), field.centroid(pair, 1)});
+      first += c.volume[k] * c.centroid[k];
+    }
+  }
+  if (1.0 - filled > least_void)
+  {
+    int const k = c.count++;
+    c.material[k] = void_material;
+    c.volume[k] = 1.0 - filled;
+    c.centroid[k] = {0.0, 0.0};
+    if (with_centroids)
+    {
+      Moments<1> const m = moments<1>(c.polygon, c.polygon[0]);
+      c.centroid[k] = (1.0 / c.volume[k]) * (Vector2{m.first(0), m.first(1)} - first);
+    }
+  }
+  return c;
+}
+
+/// Volume fraction in any cell of those materials (and void) that make up a set of components.
+KOKKOS_INLINE_FUNCTION double setFraction(ReconstructionField const &field, CellComponents const &components,
+                                          ComponentSet set, int cell)
+{
+  int const kind = field.pairs.cell_kind(cell);
+  if (kind == VoidCell)
+    return (components.setOfMaterial(void_material) & set) != 0u ? 1.0 : 0.0;
+  int const begin = field.pairs.offset(cell);
+  if (kind == PureCell)
+    return (components.setOfMaterial(field.pairs.material(begin)) & set) != 0u ? 1.0 : 0.0;
+  double sum = 0.0, filled = 0.0;
+  for (int pair = begin; pair < field.pairs.offset(cell + 1); ++pair)
+  {
+    double const fraction = field.record(pair, VolumeFraction);
+    filled += fraction;
+    if ((components.setOfMaterial(field.pairs.material(pair)) & set) != 0u)
+      sum += fraction;
+  }
+  if ((components.setOfMaterial(void_material) & set) != 0u)
+    sum += Math::max(0.0, 1.0 - filled);
+  return sum;
+}
+
+/// A cell's corners in the coordinates of another one.
+KOKKOS_INLINE_FUNCTION Quadrilateral unitQuadrilateral(Mesh const &mesh, CellComponents const &components, int cell)
+{
+  Quadrilateral quad = cellQuadrilateral(mesh, cell);
+  for (int k = 0; k < 4; ++k)
+    quad[k] = components.toUnit(quad[k]);
+  return quad;
+}
+
+/// Centroid of a quadrilateral.
+KOKKOS_INLINE_FUNCTION Vector2 quadrilateralCentroid(Quadrilateral const &quad)
+{
+  return quad[0] + moments<1>(quad, quad[0]).centroid();
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_FRACTION_GRADIENT_HPP
+#define HARMOS_FRACTION_GRADIENT_HPP
+
+#include <Harmos_CellComponents.hpp>
+
+namespace Harmos
+{
+
+/// A function on cells: the volume fraction of `inside` minus that of `outside`. Its negative gradient leaves the
+/// inside. With an empty outside it is a plain volume fraction; where the two sets fill all cells around it is twice
+/// that plus a constant.
+struct FractionDifference
+{
+  ComponentSet inside, outside;
+
+  KOKKOS_INLINE_FUNCTION double operator()(ReconstructionField const &field, CellComponents const &components,
+                                           int cell) const
+  {
+    double const f = setFraction(field, components, inside, cell);
+    return outside == 0u ? f : f - setFraction(field, components, outside, cell);
+  }
+};
+
+/// Gradient at a cell by weighted least squares over its vertex neighbours: minimises
+/// sum w (f_j - f_0 - g.(x_j - x_0))^2, w = 1 / |x_j - x_0|^2, x the centroids. In the cell's unit coordinates.
+///
+/// Exact for linear functions on any mesh. Where the neighbours lie on one line (a strip of cells) the gradient along
+/// that line; zero without neighbours.
+KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
+                                                    FractionDifference const &f)
+{
+  Rows const &neighbours = field.mesh.cell_neighbour;
+  int const cell = components.cell;
+  Vector2 const centre = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, cell));
+  double const f0 = f(field, components, cell);
+  double sxx = 0.0, sxy = 0.0, syy = 0.0;
+  Vector2 b{0.0, 0.0};
+  for (int n = neighbours.offset(cell); n < neighbours.offset(cell + 1); ++n)
+  {
+    int const j = neighbours.item(n);
+    Vector2 const d = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, j)) - centre;
+    double const w = 1.0 / dot(d, d);
+    sxx += w * d[0] * d[0];
+    sxy += w * d[0] * d[1];
+    syy += w * d[1] * d[1];
+    b += (w * (f(field, components, j) - f0)) * d;
+  }
+  double const trace = sxx + syy, det = sxx * syy - sxy * sxy;
+  if (trace == 0.0)
+    return {0.0, 0.0};
+  if (det > 1e-12 * trace * trace)
+    return {(syy * b[0] - sxy * b[1]) / det, (sxx * b[1] - sxy * b[0]) / det};
+  Vector2 const line = normalised(sxx > syy ? Vector2{sxx, sxy} : Vector2{sxy, syy});
+  return (dot(line, b) / trace) * line;
+}
+
+namespace Detail
+{
+
+/// Gradient at a node by the contour integral over its dual, (1/A) sum f n dl around the centroids of its cells,
+/// walked counter-clockwise from cell to cell across faces. False where the ring is open (boundary, edge of the halo).
+template <class Function>
+KOKKOS_INLINE_FUNCTION bool nodeGradient(ReconstructionField const &field, CellComponents const &components,
+                                         Function const &f, int corner, Vector2 &gradient)
+{
+  constexpr int max_valence = 32;
+  int const start = 4 * components.cell + corner;
+  int at = start, valence = 0;
+  double twice_area = 0.0;
+  Vector2 sum{0.0, 0.0}, origin{0.0, 0.0}, a{0.0, 0.0};
+  double fa = 0.0;
+  for (; valence < max_valence; ++valence)
+  {
+    int const cell = at / 4;
+    Vector2 const b = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, cell));
+    double const fb = f(field, components, cell);
+    if (valence == 0)
+      origin = b;
+    else
+    {
+      sum += (0.5 * (fa + fb)) * Vector2{b[1] - a[1], a[0] - b[0]};
+      twice_area += cross(a - origin, b - origin);
+    }
+    if (valence > 0 && at == start)
+      break;
+    a = b;
+    fa = fb;
+    // The face before this corner; seen from its other cell it begins at the node, so its code names the next corner.
+    at = field.mesh.face_neighbour(cell, (at % 4 + 3) % 4);
+    if (at < 0)
+      return false;
+  }
+  if (valence < 3 || valence == max_valence || twice_area <= 0.0)
+    return false;
+  gradient = (2.0 / twice_area) * sum;
+  return true;
+}
+
+} // namespace Detail
+
+/// Youngs' gradient at a cell: the mean of its nodes' contour-integral gradients, in the cell's unit coordinates.
+///
+/// Nodes whose ring of cells is open are left out (one-sided at boundaries and at the edge of the halo); without any
+/// closed one the least-squares gradient is taken. On a uniform grid these are Youngs' weights 1, 2, 1.
+///
+/// Youngs, in Numerical Methods for Fluid Dynamics (1982) 273-285; Dukowicz & Kodis, SIAM J. Sci. Stat. Comput. 8
+/// (1987) 305-321.
+KOKKOS_INLINE_FUNCTION Vector2 youngsGradient(ReconstructionField const &field, CellComponents const &components,
+                                              FractionDifference const &f)
+{
+  Vector2 sum{0.0, 0.0};
+  int closed = 0;
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    Vector2 gradient;
+    if (Detail::nodeGradient(field, components, f, corner, gradient))
+    {
+      sum += gradient;
+      ++closed;
+    }
+  }
+  return closed > 0 ? (1.0 / closed) * sum : leastSquaresGradient(field, components, f);
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_LINE_CUT_HPP
+#define HARMOS_LINE_CUT_HPP
+
+#include <Harmos_Moments.hpp>
+
+namespace Harmos
+{
+
+/// A chord that divides a convex polygon. Below it lie the vertices first, next(first), ..., last.
+struct LineCut
+{
+  double offset;      // dot(normal, x) = offset on the chord [length]
+  Vector2 begin, end; // of the chord: on the edge that leaves `last`, on the edge that enters `first`
+  int first, last;
+  bool converged; // false: the volume lies outside [0, |polygon|]; the chord is then at the nearer end
+};
+
+/// The chord of given normal that cuts a given volume off a convex polygon: V(d) = |polygon ∩ {n.x <= d}| = volume.
+///
+/// Closed form: between vertices, taken upwards along n on both chains at once, the chord's length w is linear and V
+/// quadratic, V = V_a + w_a h + (1/2) w' h^2; its root h = 2 (V - V_a) / (w_a + sqrt(w_a^2 + 2 w' (V - V_a))) has no
+/// cancellation. Heights count from the lowest vertex, so a small volume keeps its relative accuracy: cut the smaller
+/// part and take the other as the complement.
+///
+/// \param polygon Convex, counter-clockwise, at least 3 vertices. [length]
+/// \param normal  Unit vector that leaves the part of given volume.
+/// \param volume  In [0, |polygon|]. [length^2]
+///
+/// Scardovelli & Zaleski, J. Comput. Phys. 164 (2000) 228-237 for squares; here any convex polygon.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume)
+{
+  int const size = polygon.size;
+  int low = 0;
+  double least = 0.0;
+  for (int i = 1; i < size; ++i)
+  {
+    double const height = dot(normal, polygon[i] - polygon[0]);
+    if (height < least)
+    {
+      least = height;
+      low = i;
+    }
+  }
+  Vector2 const along = perpendicular(normal);
+  double s[Capacity], t[Capacity];
+  double highest = 0.0;
+  for (int i = 0; i < size; ++i)
+  {
+    Vector2 const d = polygon[i] - polygon[low];
+    s[i] = dot(normal, d);
+    t[i] = dot(along, d);
+    highest = Math::max(highest, s[i]);
+  }
+
+  auto const next = [size](int i) { return i + 1 == size ? 0 : i + 1; };
+  auto const previous = [size](int i) { return i == 0 ? size - 1 : i - 1; };
+  auto const at = [&s, &t](int from, int to, double height) {
+    return s[to] <= height || s[to] <= s[from] ? t[to]
+                                               : t[from] + (t[to] - t[from]) * ((height - s[from]) / (s[to] - s[from]));
+  };
+  // `right` climbs counter-clockwise, `left` clockwise; both are at or below `level`, the vertices after them above it.
+  int right = low, left = low;
+  double level = 0.0, width = 0.0, below = 0.0;
+  bool converged = volume >= 0.0;
+  for (int step = 0; step < 2 * size; ++step)
+  {
+    int const right_next = next(right), left_next = previous(left);
+    double const top = Math::max(level, Math::min(s[right_next], s[left_next]));
+    double const width_top = Math::max(0.0, at(left, left_next, top) - at(right, right_next, top));
+    double const slab = 0.5 * (width + width_top) * (top - level);
+    if (below + slab >= volume || top >= highest)
+    {
+      double const missing = Math::min(Math::max(0.0, volume - below), slab);
+      converged = converged && volume <= (below + slab) * (1.0 + 1e-13) + 1e-300;
+      if (missing > 0.0)
+      {
+        double const slope = (width_top - width) / (top - level);
+        double const root = Math::sqrt(Math::max(0.0, width * width + 2.0 * slope * missing));
+        level = Math::min(top, level + 2.0 * missing / (width + root));
+      }
+      break;
+    }
+    below += slab;
+    level = top;
+    width = width_top;
+    if (s[right_next] <= level)
+      right = right_next;
+    if (s[left_next] <= level)
+      left = left_next;
+  }
+
+  auto const point = [&s, &polygon, level](int from, int to) {
+    double const rise = s[to] - s[from];
+    double const part = rise > 0.0 ? Math::clamp((level - s[from]) / rise, 0.0, 1.0) : 0.0;
+    return part == 1.0 ? polygon[to] : polygon[from] + part * (polygon[to] - polygon[from]);
+  };
+  LineCut cut;
+  cut.offset = dot(normal, polygon[low]) + level;
+  cut.begin = point(right, next(right));
+  cut.end = point(left, previous(left));
+  cut.first = left;
+  cut.last = right;
+  cut.converged = converged;
+  return cut;
+}
+
+/// Append a vertex that differs from the last one.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION void pushDistinct(Polygon<Capacity> &polygon, Vector2 const &point)
+{
+  if (polygon.size > 0 && polygon[polygon.size - 1][0] == point[0] && polygon[polygon.size - 1][1] == point[1])
+    return;
+  polygon.push(point);
+}
+
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION void dropRepeatedEnd(Polygon<Capacity> &polygon)
+{
+  int const last = polygon.size - 1;
+  if (last > 0 && polygon[0][0] == polygon[last][0] && polygon[0][1] == polygon[last][1])
+    --polygon.size;
+}
+
+/// The part of the polygon below the chord. It shares the chord's end points with partAbove, bit for bit.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION Region partBelow(Polygon<Capacity> const &polygon, LineCut const &cut)
+{
+  Region part;
+  for (int i = cut.first;; i = polygon.next(i))
+  {
+    pushDistinct(part, polygon[i]);
+    if (i == cut.last)
+      break;
+  }
+  pushDistinct(part, cut.begin);
+  pushDistinct(part, cut.end);
+  dropRepeatedEnd(part);
+  return part;
+}
+
+/// The part of the polygon above the chord.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION Region partAbove(Polygon<Capacity> const &polygon, LineCut const &cut)
+{
+  Region part;
+  pushDistinct(part, cut.begin);
+  for (int i = polygon.next(cut.last); i != cut.first; i = polygon.next(i))
+    pushDistinct(part, polygon[i]);
+  pushDistinct(part, cut.end);
+  dropRepeatedEnd(part);
+  return part;
+}
+
+/// A polygon divided in two by a line whose normal leaves `inside`.
+struct Division
+{
+  Region inside, outside;
+  Vector2 chord_begin, chord_end;
+  Plane2 line; // its normal leaves `inside`
+  bool converged;
+};
+
+/// Divide a convex polygon by a line of given normal into given volumes; the smaller part is the one that is cut.
+///
+/// \param inside_volume, outside_volume Their sum is the polygon's volume, to round-off. [length^2]
+KOKKOS_INLINE_FUNCTION Division divide(Region const &polygon, Vector2 const &normal, double inside_volume,
+                                       double outside_volume)
+{
+  Division division;
+  bool const cut_inside = inside_volume <= outside_volume;
+  LineCut const cut =
+      cut_inside ? lineCut(polygon, normal, inside_volume) : lineCut(polygon, -normal, outside_volume);
+  division.inside = cut_inside ? partBelow(polygon, cut) : partAbove(polygon, cut);
+  division.outside = cut_inside ? partAbove(polygon, cut) : partBelow(polygon, cut);
+  division.chord_begin = cut.begin;
+  division.chord_end = cut.end;
+  division.line = {normal, cut_inside ? cut.offset : -cut.offset};
+  division.converged = cut.converged;
+  return division;
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_MOMENT_OF_FLUID_HPP
+#define HARMOS_MOMENT_OF_FLUID_HPP
+
+#include <Harmos_LineCut.hpp>
+
+namespace Harmos
+{
+
+struct MomentOfFluidLine
+{
+  Vector2 normal;        // unit, leaves the part
+  Vector2 centroid;      // of the part that is cut off [length]
+  double squared_error;  // |centroid - reference|^2 [length^2]
+  int iterations;        // cuts evaluated
+};
+
+namespace Detail
+{
+
+/// Centroid of a cut and the rate dx/dtheta = -tau L^3 / (12 V) at which it moves along the chord when the line turns
+/// by theta about the chord's midpoint, which keeps the volume.
+struct TurningCut
+{
+  Vector2 centroid;
+  double rate; // L^3 / (12 V)
+};
+
+KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 const &normal, double volume)
+{
+  LineCut const cut = lineCut(polygon, normal, volume);
+  Region const part = partBelow(polygon, cut);
+  Moments<1> const m = moments<1>(part, cut.begin);
+  double const length = norm(cut.end - cut.begin);
+  double const actual = m.volume();
+  TurningCut result;
+  result.centroid = actual > 0.0 ? cut.begin + m.centroid() : cut.begin;
+  result.rate = actual > 0.0 ? length * length * length / (12.0 * actual) : 0.0;
+  return result;
+}
+
+/// A local minimum of |x(theta) - c|^2 from a given direction. Stationary where g = (x - c).tau = 0, tau along the
+/// chord; g' = -L^3/(12 V) - (x - c).n. Newton's method, kept inside the bracket g(low) > 0 > g(high) by bisection.
+KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vector2 const &start, double volume,
+                                                      Vector2 const &reference)
+{
+  constexpr int max_iterations = 60;
+  constexpr double tolerance = 4e-16; // of the unit cell: the round-off of the centroid
+  Vector2 const start_along = perpendicular(start);
+  double theta = 0.0, low = 0.0, high = 0.0, last_slope = 1e300;
+  bool has_low = false, has_high = false;
+  MomentOfFluidLine line{start, reference, 0.0, 0};
+  for (int i = 0; i < max_iterations; ++i)
+  {
+    line.normal = Math::cos(theta) * start + Math::sin(theta) * start_along;
+    TurningCut const cut = turningCut(polygon, line.normal, volume);
+    Vector2 const miss = cut.centroid - reference;
+    line.centroid = cut.centroid;
+    line.squared_error = dot(miss, miss);
+    line.iterations = i + 1;
+    double const g = dot(miss, perpendicular(line.normal));
+    if (Math::fabs(g) <= tolerance)
+      break;
+    (g > 0.0 ? low : high) = theta;
+    (g > 0.0 ? has_low : has_high) = true;
+    double const curvature = cut.rate + dot(miss, line.normal); // -g'
+    double step = curvature > 0.0 ? g / curvature : (g > 0.0 ? 0.5 : -0.5);
+    step = Math::clamp(step, -0.5, 0.5);
+    double next = theta + step;
+    bool const slow = Math::fabs(g) > 0.5 * last_slope;
+    if (has_low && has_high && (slow || (next - low) * (next - high) >= 0.0))
+      next = 0.5 * (low + high);
+    last_slope = Math::fabs(g);
+    if (Math::fabs(next - theta) <= 1e-16)
+      break;
+    theta = next;
+  }
+  return line;
+}
+
+} // namespace Detail
+
+/// The line that cuts a given volume off a convex polygon with the centroid nearest to a given one.
+///
+/// Minimises F(theta) = |x(theta) - c|^2 over the normal's angle, V exact at every theta. First start: the normal that
+/// an ellipse with the polygon's second moments S would have, n ~ -S^-1 (c - x_polygon); when its residual is not
+/// small, a second start from n ~ -(c - x_polygon), and the better one is kept. Straight interfaces are exact.
+///
+/// Give it the smaller part: a nearly full polygon's centroid does not depend on the angle.
+///
+/// \param polygon   In coordinates in which the cell has unit area and lies near the origin.
+/// \param volume    Of the part, in (0, |polygon|).
+/// \param reference c, the part's given centroid.
+///
+/// Dyadechko & Shashkov, J. Comput. Phys. 227 (2008) 5361-5384; derivative by Lemoine et al., J. Comput. Phys. 330
+/// (2017) 1-14 in this notation.
+KOKKOS_INLINE_FUNCTION MomentOfFluidLine momentOfFluidLine(Region const &polygon, double volume,
+                                                           Vector2 const &reference)
+{
+  double const small_residual = 1e-4 * volume; // a hundredth of the part's size, squared
+  Moments<2> const m = moments<2>(polygon, polygon[0]);
+  Vector2 const centroid = m.centroid();
+  Vector2 const towards = polygon[0] + centroid - reference;
+  double const sxx = m.second(0, 0) / m.volume() - centroid[0] * centroid[0];
+  double const sxy = m.second(0, 1) / m.volume() - centroid[0] * centroid[1];
+  double const syy = m.second(1, 1) / m.volume() - centroid[1] * centroid[1];
+  Vector2 plain = normalised(towards);
+  if (dot(plain, plain) == 0.0)
+    plain = {1.0, 0.0};
+  Vector2 scaled = normalised(Vector2{syy * towards[0] - sxy * towards[1], sxx * towards[1] - sxy * towards[0]});
+  if (dot(scaled, scaled) == 0.0)
+    scaled = plain;
+  MomentOfFluidLine line = Detail::localMinimum(polygon, scaled, volume, reference);
+  if (line.squared_error > small_residual)
+  {
+    MomentOfFluidLine const second = Detail::localMinimum(polygon, plain, volume, reference);
+    int const iterations = line.iterations + second.iterations;
+    if (second.squared_error < line.squared_error - 1e-20)
+      line = second;
+    line.iterations = iterations;
+  }
+  return line;
+}
+
+} // namespace Harmos
+
+#endif

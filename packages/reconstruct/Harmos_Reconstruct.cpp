@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_Reconstruct.hpp>
+
+#include <Harmos_RemovalPlan.hpp>
+
+namespace Harmos
+{
+
+namespace
+{
+
+constexpr int max_exhaustive_components = 5;
+constexpr double volume_tolerance = 1e-12; // of the cell
+
+struct CellStatus
+{
+  double volume_error; // of the cell
+  bool failed, greedy;
+};
+
+/// Positions in which components are removed: as listed, then by material, void last.
+KOKKOS_FUNCTION void givenOrder(CellComponents const &components, View<int *> const &listed, int order[max_components])
+{
+  ComponentSet left = components.all();
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(listed.extent(0)); ++i)
+  {
+    ComponentSet const set = components.setOfMaterial(listed(i)) & left;
+    for (int k = 0; k < components.count; ++k)
+      if (components.holds(set, k))
+        order[count++] = k;
+    left &= ~set;
+  }
+  for (int k = 0; k < components.count; ++k)
+    if (components.holds(left, k))
+      order[count++] = k;
+}
+
+KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellComponents const &components,
+                                        ReconstructionOptions const &options)
+{
+  if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0)
+  {
+    int order[max_components];
+    givenOrder(components, options.order, order);
+    return fixedPlan(field, components, options.method, options.sliver, order);
+  }
+  if (components.count > max_exhaustive_components)
+    return greedyPlan(field, components, options.sliver);
+  if (components.count > 1)
+    return bestPlan(field, components, options.sliver);
+  RemovalPlan plan;
+  plan.count = 1;
+  plan.set(0, 0, {1.0, 0.0});
+  return plan;
+}
+
+/// Cut the cell as planned, write the materials' regions, and return the largest volume error.
+KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, RemovalPlan const &plan,
+                                        FilledRegions const &regions)
+{
+  CellStatus status{0.0, false, false};
+  int const first = regions.cell_region(components.cell);
+  Region polygon = components.polygon;
+  ComponentSet rest = components.all();
+  for (int i = 0; i < plan.count; ++i)
+  {
+    int const k = plan.component[i];
+    Region part = polygon;
+    rest &= ~(1u << k);
+    if (rest != 0u)
+    {
+      Division const division = divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest));
+      part = division.inside;
+      polygon = division.outside;
+    }
+    double const error = Math::fabs(area(part) - components.volume[k]);
+    status.volume_error = Math::max(status.volume_error, error);
+    status.failed = status.failed || !(error <= volume_tolerance);
+    if (components.material[k] == void_material)
+      continue;
+    for (int v = 0; v < part.size; ++v)
+      part[v] = components.fromUnit(part[v]);
+    regions.polygon(first + k) = part;
+  }
+  return status;
+}
+
+KOKKOS_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, ReconstructionOptions const &options,
+                                           FilledRegions const &regions, int cell)
+{
+  if (componentCount(field, cell) > max_components)
+    return {1.0, true, false};
+  bool const by_moments = options.method == ReconstructionMethod::MomentOfFluid;
+  CellComponents const components = cellComponents(field, cell, by_moments);
+  CellStatus status = writeRegions(components, removalPlan(field, components, options), regions);
+  status.greedy = by_moments && options.order.extent(0) == 0 && components.count > max_exhaustive_components;
+  return status;
+}
+
+/// The mixed cells and where their regions lie.
+FilledRegions listMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs)
+{
+  FilledRegions regions;
+  regions.cell_region = View<int *>("Harmos::reconstruct::cell_region", mesh.num_cells);
+  View<int *> const cell_region = regions.cell_region;
+  View<int *> const kind = pairs.cell_kind;
+  Kokkos::parallel_scan(
+      "Harmos::reconstruct::countMixedCells", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int const cell, int &count, bool const final) {
+        if (final)
+          cell_region(cell) = kind(cell) == MixedCell ? count : -1;
+        count += kind(cell) == MixedCell ? 1 : 0;
+      },
+      regions.num_mixed_cells);
+  regions.mixed_cell = View<int *>("Harmos::reconstruct::mixed_cell", regions.num_mixed_cells);
+  View<int *> const mixed_cell = regions.mixed_cell;
+  Kokkos::parallel_for(
+      "Harmos::reconstruct::listMixedCells", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int const cell) {
+        if (cell_region(cell) >= 0)
+          mixed_cell(cell_region(cell)) = cell;
+      });
+  int num_regions = 0;
+  View<int *> const offset = pairs.offset;
+  Kokkos::parallel_scan(
+      "Harmos::reconstruct::countRegions", RangePolicy(0, regions.num_mixed_cells),
+      KOKKOS_LAMBDA(int const i, int &count, bool const final) {
+        int const cell = mixed_cell(i);
+        if (final)
+          cell_region(cell) = count;
+        count += offset(cell + 1) - offset(cell);
+      },
+      num_regions);
+  regions.polygon = View<Region *>("Harmos::reconstruct::polygon", num_regions);
+  return regions;
+}
+
+void addReport(Mesh const &mesh, View<int *> const &mixed_cell, View<CellStatus *> const &status,
+               ReconstructionReport &report)
+{
+  int const num_mixed = static_cast<int>(mixed_cell.extent(0));
+  View<int *> const depth = mesh.cell_depth;
+  long long failures = 0, greedy = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::reconstruct::countFailures", RangePolicy(0, num_mixed),
+      KOKKOS_LAMBDA(int const i, long long &sum) { sum += depth(mixed_cell(i)) == 0 && status(i).failed ? 1 : 0; },
+      failures);
+  Kokkos::parallel_reduce(
+      "Harmos::reconstruct::countGreedyCells", RangePolicy(0, num_mixed),
+      KOKKOS_LAMBDA(int const i, long long &sum) { sum += depth(mixed_cell(i)) == 0 && status(i).greedy ? 1 : 0; },
+      greedy);
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::reconstruct::largestVolumeError", RangePolicy(0, num_mixed),
+      KOKKOS_LAMBDA(int const i, double &error) {
+        if (depth(mixed_cell(i)) == 0)
+          error = Math::max(error, status(i).volume_error);
+      },
+      Kokkos::Max<double>(largest));
+  if (failures > 0 && report.first_failed_cell < 0)
+  {
+    int first = 0;
+    Kokkos::parallel_reduce(
+        "Harmos::reconstruct::firstFailedCell", RangePolicy(0, num_mixed),
+        KOKKOS_LAMBDA(int const i, int &cell) {
+          if (depth(mixed_cell(i)) == 0 && status(i).failed)
+            cell = Math::min(cell, mixed_cell(i));
+        },
+        Kokkos::Min<int>(first));
+    report.first_failed_cell = first;
+  }
+  report.failures += failures;
+  report.greedy_cells += greedy;
+  if (num_mixed > 0)
+    report.largest_volume_error = Math::max(report.largest_volume_error, largest);
+}
+
+} // namespace
+
+FilledRegions reconstruct(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                          ReconstructionOptions const &options, ReconstructionReport &report)
+{
+  ScopedRegion const region("Harmos::reconstruct");
+  FilledRegions const regions = listMixedCells(mesh, pairs);
+  ReconstructionField const field{mesh, pairs, state.record, state.centroid};
+  View<CellStatus *> const status("Harmos::reconstruct::status", regions.num_mixed_cells);
+  Kokkos::parallel_for(
+      "Harmos::reconstruct::mixedCells", RangePolicy(0, regions.num_mixed_cells), KOKKOS_LAMBDA(int const i) {
+        status(i) = reconstructCell(field, options, regions, regions.mixed_cell(i));
+      });
+  addReport(mesh, regions.mixed_cell, status, report);
+  return regions;
+}
+
+} // namespace Harmos

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_REMOVAL_PLAN_HPP
+#define HARMOS_REMOVAL_PLAN_HPP
+
+#include <Harmos_LeastSquaresLine.hpp>
+#include <Harmos_MomentOfFluid.hpp>
+#include <Harmos_Reconstruct.hpp>
+
+namespace Harmos
+{
+
+/// In which order a cell's components are cut off, and with which normals; the last one keeps the remainder.
+struct RemovalPlan
+{
+  int count = 0;
+  int component[max_components];
+  Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
+  double error = 0.0;             // the measure that orders are compared by
+
+  KOKKOS_INLINE_FUNCTION void set(int i, int which, Vector2 const &its_normal)
+  {
+    component[i] = which;
+    normal[i] = its_normal;
+  }
+};
+
+/// Normal of the line that divides a polygon into two sets of components.
+struct CutNormal
+{
+  Vector2 normal; // unit, leaves the inside
+  double penalty; // 0.1 V misfit where least squares placed a sliver of volume V
+};
+
+/// Youngs: along the gradient of (fraction of the inside - fraction of the outside). Moment-of-fluid: from the smaller
+/// side's centroid, or by least squares where that side is a sliver.
+KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, CellComponents const &components,
+                                           ReconstructionMethod method, double sliver, Region const &polygon,
+                                           ComponentSet inside, ComponentSet outside)
+{
+  if (method == ReconstructionMethod::Youngs)
+  {
+    Vector2 const gradient = youngsGradient(field, components, {inside, outside});
+    Vector2 const normal = norm(gradient) > 1e-13 ? -normalised(gradient) : Vector2{1.0, 0.0};
+    return {normal, 0.0};
+  }
+  double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
+  bool const cut_inside = inside_volume <= outside_volume;
+  double const volume = cut_inside ? inside_volume : outside_volume;
+  Vector2 const centroid = (1.0 / volume) * components.firstMomentOf(cut_inside ? inside : outside);
+  if (volume < sliver)
+  {
+    Vector2 const middle = polygon[0] + moments<1>(polygon, polygon[0]).centroid();
+    Vector2 fallback = normalised(cut_inside ? middle - centroid : centroid - middle);
+    if (!(dot(fallback, fallback) > 0.5))
+      fallback = {1.0, 0.0};
+    LeastSquaresLine const line = leastSquaresLine(field, components, polygon, inside, outside, fallback);
+    return {line.normal, 0.1 * volume * line.misfit};
+  }
+  Vector2 const normal = momentOfFluidLine(polygon, volume, centroid).normal;
+  return {cut_inside ? normal : -normal, 0.0};
+}
+
+/// |first moment of a region - its component's given one|^2; slivers count nothing, since their centroids are noise.
+///
+/// First moments rather than centroids: what a straight line cannot follow moves the same first moment out of one
+/// component and into its neighbour, whatever their sizes.
+KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, double sliver, Region const &region, int k)
+{
+  if (components.volume[k] < sliver || region.empty())
+    return 0.0;
+  Moments<1> const m = moments<1>(region, region[0]);
+  Vector2 const first = Vector2{m.first(0), m.first(1)} + m.volume() * (region[0] - components.centroid[k]);
+  return dot(first, first);
+}
+
+/// Removal in a given order.
+KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, CellComponents const &components,
+                                             ReconstructionMethod method, double sliver,
+                                             int const order[max_components])
+{
+  RemovalPlan plan;
+  plan.count = components.count;
+  Region polygon = components.polygon;
+  ComponentSet rest = components.all();
+  for (int i = 0; i < components.count; ++i)
+  {
+    int const k = order[i];
+    rest &= ~(1u << k);
+    plan.set(i, k, {1.0, 0.0});
+    if (rest == 0u)
+      break;
+    plan.normal[i] = cutNormal(field, components, method, sliver, polygon, 1u << k, rest).normal;
+    polygon = divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest)).outside;
+  }
+  return plan;
+}
+
+/// All orders of removal by depth-first search; the least sum of first-moment errors and sliver penalties wins, ties
+/// (within 1e-20) go to the order that comes first. Partial sums that are no better are not followed, cuts are shared
+/// by the orders that begin with them, and the last two components need one cut.
+///
+/// Ahn & Shashkov, J. Comput. Phys. 226 (2007) 2096-2132, with first moments in place of centroids.
+KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, CellComponents const &components,
+                                            double sliver)
+{
+  constexpr int max_count = 5;
+  constexpr double tie = 1e-20;
+  Region polygon[max_count];
+  ComponentSet rest[max_count];
+  int candidate[max_count];
+  double error[max_count];
+  RemovalPlan plan, best;
+  int const count = components.count;
+  plan.count = best.count = count;
+  best.error = 1e300;
+  polygon[0] = components.polygon;
+  rest[0] = components.all();
+  candidate[0] = -1;
+  error[0] = 0.0;
+  for (int depth = 0; depth >= 0;)
+  {
+    bool const two_left = depth == count - 2;
+    int k = candidate[depth] + 1;
+    while (k < count && !components.holds(rest[depth], k))
+      ++k;
+    if (k >= count || (two_left && candidate[depth] >= 0))
+    {
+      --depth;
+      continue;
+    }
+    candidate[depth] = k;
+    ComponentSet const others = rest[depth] & ~(1u << k);
+    CutNormal const cut =
+        cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon[depth], 1u << k, others);
+    Division const division =
+        divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others));
+    double total = error[depth] + cut.penalty + momentError(components, sliver, division.inside, k);
+    int last = 0;
+    while (!components.holds(others, last))
+      ++last;
+    if (two_left)
+      total += momentError(components, sliver, division.outside, last);
+    plan.set(depth, k, cut.normal);
+    if (!(total < best.error - tie))
+      continue;
+    if (two_left)
+    {
+      plan.set(depth + 1, last, {1.0, 0.0});
+      plan.error = total;
+      best = plan;
+      continue;
+    }
+    ++depth;
+    polygon[depth] = division.outside;
+    rest[depth] = others;
+    candidate[depth] = -1;
+    error[depth] = total;
+  }
+  return best;
+}
+
+/// One component after the other, each time the one whose cut has the least centroid error.
+KOKKOS_INLINE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, CellComponents const &components,
+                                              double sliver)
+{
+  RemovalPlan plan;
+  plan.count = components.count;
+  Region polygon = components.polygon;
+  ComponentSet rest = components.all();
+  for (int i = 0; i < components.count; ++i)
+  {
+    Region next;
+    double least = 1e300;
+    for (int k = 0; k < components.count; ++k)
+    {
+      if (!components.holds(rest, k))
+        continue;
+      ComponentSet const others = rest & ~(1u << k);
+      if (others == 0u)
+      {
+        plan.set(i, k, {1.0, 0.0});
+        break;
+      }
+      CutNormal const cut =
+          cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon, 1u << k, others);
+      double const volume = components.volume[k];
+      Division const division = divide(polygon, cut.normal, volume, components.volumeOf(others));
+      double const error =
+          (momentError(components, sliver, division.inside, k) + cut.penalty) / (volume * volume);
+      if (error < least - 1e-20)
+      {
+        least = error;
+        plan.set(i, k, cut.normal);
+        next = division.outside;
+      }
+    }
+    rest &= ~(1u << plan.component[i]);
+    polygon = next;
+  }
+  return plan;
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_TEST_RECONSTRUCT_SCENE_HPP
+#define HARMOS_TEST_RECONSTRUCT_SCENE_HPP
+
+#include <Harmos_Clip.hpp>
+#include <Harmos_Moments.hpp>
+#include <Harmos_Reconstruct.hpp>
+
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace Harmos::Testing
+{
+
+/// [0, 1]^2 times (nx, ny) h in nx x ny cells; inner nodes are moved at random by up to `shake` h per coordinate.
+inline Mesh makeMesh(int nx, int ny, double h, double shake = 0.0, unsigned seed = 1)
+{
+  Mesh mesh;
+  mesh.num_cells = mesh.num_owned_cells = nx * ny;
+  mesh.num_nodes = (nx + 1) * (ny + 1);
+  mesh.node_position = View<double *[2]>("node_position", mesh.num_nodes);
+  mesh.cell_node = View<int *[4]>("cell_node", mesh.num_cells);
+  mesh.cell_area = View<double *>("cell_area", mesh.num_cells);
+  mesh.face_neighbour = View<int *[4]>("face_neighbour", mesh.num_cells);
+  mesh.cell_depth = View<int *>("cell_depth", mesh.num_cells);
+  mesh.cell_neighbour.offset = View<int *>("offset", mesh.num_cells + 1);
+  mesh.cell_neighbour.item = View<int *>("item", 8 * mesh.num_cells);
+  auto const x = Kokkos::create_mirror_view(mesh.node_position);
+  auto const node = Kokkos::create_mirror_view(mesh.cell_node);
+  auto const cell_area = Kokkos::create_mirror_view(mesh.cell_area);
+  auto const face = Kokkos::create_mirror_view(mesh.face_neighbour);
+  auto const offset = Kokkos::create_mirror_view(mesh.cell_neighbour.offset);
+  auto const item = Kokkos::create_mirror_view(mesh.cell_neighbour.item);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-shake, shake);
+  for (int j = 0; j <= ny; ++j)
+    for (int i = 0; i <= nx; ++i)
+    {
+      bool const inner = i > 0 && i < nx && j > 0 && j < ny;
+      x(j * (nx + 1) + i, 0) = h * (i + (inner ? uniform(random) : 0.0));
+      x(j * (nx + 1) + i, 1) = h * (j + (inner ? uniform(random) : 0.0));
+    }
+  int count = 0;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+    {
+      int const cell = j * nx + i;
+      int const first = j * (nx + 1) + i;
+      int const corner[4] = {first, first + 1, first + nx + 2, first + nx + 1};
+      Quadrilateral quad;
+      for (int k = 0; k < 4; ++k)
+      {
+        node(cell, k) = corner[k];
+        quad.push({x(corner[k], 0), x(corner[k], 1)});
+      }
+      cell_area(cell) = area(quad);
+      face(cell, 0) = j > 0 ? 4 * (cell - nx) + 2 : -1;
+      face(cell, 1) = i + 1 < nx ? 4 * (cell + 1) + 3 : -1;
+      face(cell, 2) = j + 1 < ny ? 4 * (cell + nx) + 0 : -1;
+      face(cell, 3) = i > 0 ? 4 * (cell - 1) + 1 : -1;
+      offset(cell) = count;
+      for (int b = j - 1; b <= j + 1; ++b)
+        for (int a = i - 1; a <= i + 1; ++a)
+          if (a >= 0 && a < nx && b >= 0 && b < ny && (a != i || b != j))
+            item(count++) = b * nx + a;
+    }
+  offset(mesh.num_cells) = count;
+  Kokkos::deep_copy(mesh.node_position, x);
+  Kokkos::deep_copy(mesh.cell_node, node);
+  Kokkos::deep_copy(mesh.cell_area, cell_area);
+  Kokkos::deep_copy(mesh.face_neighbour, face);
+  Kokkos::deep_copy(mesh.cell_neighbour.offset, offset);
+  Kokkos::deep_copy(mesh.cell_neighbour.item, item);
+  return mesh;
+}
+
+/// One material in one cell.
+struct Fill
+{
+  int material;
+  double volume; // [length^2]
+  Vector2 centroid;
+};
+
+struct Scene
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  PairState state;
+};
+
+using CellFills = std::function<std::vector<Fill>(int, Quadrilateral const &)>;
+
+inline Quadrilateral hostQuadrilateral(HostView<double *[2]> const &x, HostView<int *[4]> const &node, int cell)
+{
+  Quadrilateral quad;
+  for (int k = 0; k < 4; ++k)
+    quad.push({x(node(cell, k), 0), x(node(cell, k), 1)});
+  return quad;
+}
+
+/// Pairs, volume fractions and centroids from what each cell holds (materials ascending); a fill within 1e-14 of the
+/// whole cell makes it pure.
+inline Scene paint(Mesh const &mesh, CellFills const &fills)
+{
+  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
+  auto const node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_node);
+  std::vector<int> offset{0}, cell_of, kind;
+  std::vector<Fill> all;
+  std::vector<double> fraction;
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+  {
+    Quadrilateral const quad = hostQuadrilateral(x, node, cell);
+    double const whole = area(quad);
+    int count = 0;
+    bool pure = false;
+    for (Fill const &fill : fills(cell, quad))
+    {
+      if (fill.volume <= 1e-15 * whole)
+        continue;
+      pure = fill.volume >= (1.0 - 1e-14) * whole;
+      all.push_back(fill);
+      fraction.push_back(pure ? 1.0 : fill.volume / whole);
+      cell_of.push_back(cell);
+      ++count;
+    }
+    kind.push_back(count == 0 ? VoidCell : (count == 1 && pure ? PureCell : MixedCell));
+    offset.push_back(static_cast<int>(all.size()));
+  }
+  int const num_pairs = static_cast<int>(all.size());
+  Scene scene;
+  scene.mesh = mesh;
+  scene.pairs.num_pairs = num_pairs;
+  scene.pairs.offset = View<int *>("offset", mesh.num_cells + 1);
+  scene.pairs.material = View<int *>("material", num_pairs);
+  scene.pairs.cell = View<int *>("cell", num_pairs);
+  scene.pairs.cell_kind = View<int *>("cell_kind", mesh.num_cells);
+  scene.state.record = View<double *[num_pair_fields]>("record", num_pairs);
+  scene.state.centroid = View<double *[2]>("centroid", num_pairs);
+  auto const h_offset = Kokkos::create_mirror_view(scene.pairs.offset);
+  auto const h_material = Kokkos::create_mirror_view(scene.pairs.material);
+  auto const h_cell = Kokkos::create_mirror_view(scene.pairs.cell);
+  auto const h_kind = Kokkos::create_mirror_view(scene.pairs.cell_kind);
+  auto const h_record = Kokkos::create_mirror_view(scene.state.record);
+  auto const h_centroid = Kokkos::create_mirror_view(scene.state.centroid);
+  for (int cell = 0; cell <= mesh.num_cells; ++cell)
+    h_offset(cell) = offset[cell];
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+    h_kind(cell) = kind[cell];
+  for (int pair = 0; pair < num_pairs; ++pair)
+  {
+    h_material(pair) = all[pair].material;
+    h_cell(pair) = cell_of[pair];
+    h_record(pair, VolumeFraction) = fraction[pair];
+    for (int d = 0; d < 2; ++d)
+      h_centroid(pair, d) = all[pair].centroid[d];
+  }
+  Kokkos::deep_copy(scene.pairs.offset, h_offset);
+  Kokkos::deep_copy(scene.pairs.material, h_material);
+  Kokkos::deep_copy(scene.pairs.cell, h_cell);
+  Kokkos::deep_copy(scene.pairs.cell_kind, h_kind);
+  Kokkos::deep_copy(scene.state.record, h_record);
+  Kokkos::deep_copy(scene.state.centroid, h_centroid);
+  return scene;
+}
+
+/// A convex body: an intersection of half-planes.
+using Body = std::vector<Plane2>;
+
+inline Plane2 halfPlane(double degrees, Vector2 const &point)
+{
+  Vector2 const n{std::cos(degrees * Math::pi / 180.0), std::sin(degrees * Math::pi / 180.0)};
+  return {n, dot(n, point)};
+}
+
+template <int Capacity>
+inline Region intersection(Polygon<Capacity> const &polygon, Body const &body)
+{
+  Region part;
+  for (int i = 0; i < polygon.size; ++i)
+    part.push(polygon[i]);
+  for (Plane2 const &plane : body)
+  {
+    Region next;
+    clip(part, plane, next);
+    part = next;
+  }
+  return part;
+}
+
+/// Disjoint bodies; body m is material m.
+inline CellFills bodies(std::vector<Body> const &all)
+{
+  return [all](int, Quadrilateral const &quad) {
+    std::vector<Fill> fills;
+    for (std::size_t m = 0; m < all.size(); ++m)
+    {
+      Region const part = intersection(quad, all[m]);
+      Moments<1> const first = moments<1>(part, quad[0]);
+      if (first.volume() > 0.0)
+        fills.push_back({static_cast<int>(m), first.volume(), quad[0] + first.centroid()});
+    }
+    return fills;
+  };
+}
+
+/// Largest, over the mixed cells, of |region outside its body| / |cell| (with exact volumes half the symmetric
+/// difference).
+inline double misplacedVolume(Scene const &scene, FilledRegions const &regions, std::vector<Body> const &all)
+{
+  auto const mixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.mixed_cell);
+  auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
+  auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
+  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.material);
+  auto const cell_area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.mesh.cell_area);
+  double worst = 0.0;
+  for (int i = 0; i < regions.num_mixed_cells; ++i)
+  {
+    int const cell = mixed(i);
+    for (int pair = offset(cell); pair < offset(cell + 1); ++pair)
+    {
+      Region const &region = polygon(first(cell) + pair - offset(cell));
+      double const outside = area(region) - area(intersection(region, all[material(pair)]));
+      worst = std::max(worst, outside / cell_area(cell));
+    }
+  }
+  return worst;
+}
+
+} // namespace Harmos::Testing
+
+#endif

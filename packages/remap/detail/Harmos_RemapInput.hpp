@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_REMAP_INPUT_HPP
+#define HARMOS_REMAP_INPUT_HPP
+
+#include <Harmos_Remap.hpp>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+/// What every kernel of the remap may read; captured by value.
+struct Input
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  NodeMaterialPairs dof_nodes;
+  PairState state;
+  FilledRegions regions;
+  BoundaryConditions conditions;
+  View<Material *> materials;
+  View<double *[2]> half;
+  double dt;
+  RigidRows rigid;
+  RemapOptions options;
+
+  KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
+  KOKKOS_INLINE_FUNCTION Vector2 node(int n) const { return {mesh.node_position(n, 0), mesh.node_position(n, 1)}; }
+  KOKKOS_INLINE_FUNCTION Vector2 displacement(int dof) const { return {dt * half(dof, 0), dt * half(dof, 1)}; }
+};
+
+/// An uninitialised array.
+template <class T>
+View<T> scratch(char const *label, std::size_t extent)
+{
+  return View<T>(Kokkos::view_alloc(std::string("Harmos::remap::") + label, Kokkos::WithoutInitializing), extent);
+}
+
+/// Counts -> offsets, in place: offset(i) counts row i on entry, offset(rows) is set. Returns the total.
+inline int exclusiveScan(View<int *> const &offset)
+{
+  int const rows = static_cast<int>(offset.extent(0)) - 1;
+  int total = 0;
+  Kokkos::parallel_scan(
+      "Harmos::remap::exclusiveScan", RangePolicy(0, rows + 1),
+      KOKKOS_LAMBDA(int i, int &sum, bool last) {
+        int const count = i < rows ? offset(i) : 0;
+        if (last)
+          offset(i) = sum;
+        sum += count;
+      },
+      total);
+  return total;
+}
+
+/// Sum of one column of a table.
+template <class Table>
+double sumColumn(Table const &table, int column)
+{
+  double sum = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::remap::sumColumn", RangePolicy(0, static_cast<int>(table.extent(0))),
+      KOKKOS_LAMBDA(int i, double &s) { s += table(i, column); }, sum);
+  return sum;
+}
+
+/// Area and area centroid of a quadrilateral.
+struct AreaCentroid
+{
+  double area;
+  Vector2 centroid;
+};
+
+KOKKOS_INLINE_FUNCTION AreaCentroid areaCentroid(Vector2 const x[4])
+{
+  Vector2 const d1 = x[1] - x[0];
+  Vector2 const d2 = x[2] - x[0];
+  Vector2 const d3 = x[3] - x[0];
+  double const lower = 0.5 * cross(d1, d2);
+  double const upper = 0.5 * cross(d2, d3);
+  double const area = lower + upper;
+  Vector2 const first = (lower / 3.0) * (d1 + d2) + (upper / 3.0) * (d2 + d3);
+  return {area, x[0] + (1.0 / area) * first};
+}
+
+/// Radial return of a deviator to the yield surface sqrt(3 J2) <= yield + hardening eps; zero without strength.
+KOKKOS_INLINE_FUNCTION void returnToYield(Material const &law, double *record)
+{
+  double &xx = record[DeviatorXX];
+  double &yy = record[DeviatorYY];
+  double &xy = record[DeviatorXY];
+  if (law.strength == StrengthKind::None)
+  {
+    xx = yy = xy = 0.0;
+    return;
+  }
+  if (law.strength != StrengthKind::Plastic)
+    return;
+  double const three_j2 = 3.0 * (xx * xx + yy * yy + xx * yy + xy * xy);
+  double const yield = law.yield + law.hardening * record[PlasticStrain];
+  if (three_j2 > yield * yield)
+  {
+    double const scale = yield / Math::sqrt(three_j2);
+    xx *= scale;
+    yy *= scale;
+    xy *= scale;
+  }
+}
+
+/// Mean of |v|^2 / 2 over the four corners of a pair: its kinetic energy per mass.
+KOKKOS_INLINE_FUNCTION double cornerKineticEnergy(CellMaterialPairs const &pairs, View<double *[2]> const &velocity,
+                                                  int pair)
+{
+  double sum = 0.0;
+  for (int k = 0; k < 4; ++k)
+  {
+    int const dof = pairs.dof_node(pair, k);
+    sum += velocity(dof, 0) * velocity(dof, 0) + velocity(dof, 1) * velocity(dof, 1);
+  }
+  return 0.125 * sum;
+}
+
+} // namespace RemapDetail
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_Ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+
+namespace Harmos
+{
+
+static_assert(std::is_standard_layout<Ledger>::value && sizeof(Ledger) % sizeof(double) == 0,
+              "a ledger is an array of doubles");
+
+void Ledger::noteErrors(double mass_error, double momentum_error, double energy_error, double energy,
+                        double speed_momentum)
+{
+  largest_energy = std::max(largest_energy, std::fabs(energy));
+  largest_speed_momentum = std::max(largest_speed_momentum, speed_momentum);
+  largest_mass_error = std::max(largest_mass_error, mass_error);
+  largest_momentum_error = std::max(largest_momentum_error, momentum_error);
+  if (largest_energy > 0.0)
+    largest_energy_error = std::max(largest_energy_error, std::fabs(energy_error) / largest_energy);
+}
+
+std::vector<double> Ledger::values() const
+{
+  std::vector<double> v(sizeof(Ledger) / sizeof(double));
+  std::memcpy(v.data(), this, sizeof(Ledger));
+  return v;
+}
+
+Ledger Ledger::fromValues(std::vector<double> const &values)
+{
+  if (values.size() != sizeof(Ledger) / sizeof(double))
+    throw std::runtime_error("checkpoint: the ledger has " + std::to_string(values.size()) +
+                             " values, this version writes " + std::to_string(sizeof(Ledger) / sizeof(double)));
+  Ledger ledger;
+  std::memcpy(static_cast<void *>(&ledger), values.data(), sizeof(Ledger));
+  return ledger;
+}
+
+} // namespace Harmos

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_LEDGER_HPP
+#define HARMOS_LEDGER_HPP
+
+#include <Harmos_Vector.hpp>
+
+#include <vector>
+
+namespace Harmos
+{
+
+/// Running sums of a run, each from its own source (doc/theory: energy ledger). Per unit depth.
+///
+/// E0 = kinetic + internal - external_work + contact_loss + remap_loss + outflow_energy;
+/// P0 = momentum - external_impulse + outflow_momentum.
+struct Ledger
+{
+  double energy0 = 0.0;
+  double mass0 = 0.0;
+  double momentum0_x = 0.0, momentum0_y = 0.0;
+  double external_work = 0.0;
+  double contact_loss = 0.0;
+  double remap_loss = 0.0;
+  double overlap_volume = 0.0;
+  double void_volume = 0.0;
+  double external_impulse_x = 0.0, external_impulse_y = 0.0;
+  double outflow_mass = 0.0;
+  double outflow_momentum_x = 0.0, outflow_momentum_y = 0.0;
+  double outflow_energy = 0.0;
+  double largest_mass_error = 0.0;     // relative
+  double largest_momentum_error = 0.0; // method's definition: over sum m |v|
+  double largest_energy_error = 0.0;   // relative to the largest energy of the run
+  double largest_energy = 0.0;         // kinetic + internal [J/m]
+  double largest_speed_momentum = 0.0; // sum m |v| [N s/m]
+  double pair_steps = 0.0;
+  double cell_steps = 0.0;
+  double unconverged_cycles = 0.0;
+  double light_nodes = 0.0;
+  double repeats = 0.0;
+  double merged = 0.0;
+
+  /// Keep the largest errors. \param energy_error [J/m] \param energy Kinetic + internal now.
+  void noteErrors(double mass_error, double momentum_error, double energy_error, double energy, double speed_momentum);
+
+  /// All values in the order of declaration, for checkpoints.
+  std::vector<double> values() const;
+  /// The inverse; throws std::runtime_error when the number of values differs.
+  static Ledger fromValues(std::vector<double> const &values);
+};
+
+} // namespace Harmos
+
+#endif

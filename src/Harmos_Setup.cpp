@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_Setup.hpp"
+
+#include <Harmos_DeckSchema.hpp>
+#include <Harmos_Paint.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Harmos
+{
+namespace
+{
+
+std::vector<double> gridLines(AxisSpec const &axis)
+{
+  std::vector<double> lines;
+  for (int i = 0; i <= axis.cells; ++i)
+    lines.push_back(axis.position(i));
+  return lines;
+}
+
+template <class T>
+View<T *> deviceCopy(std::string const &label, std::vector<T> const &values)
+{
+  View<T *> view(label, values.size());
+  auto host = Kokkos::create_mirror_view(view);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    host(i) = values[i];
+  Kokkos::deep_copy(view, host);
+  return view;
+}
+
+/// Corners of a body's block: its rectangle, cut off at the domain's sides where it lies along the axes.
+MappedBlock bodyBlock(Deck const &deck, BodySpec const &body)
+{
+  MappedBlock block;
+  std::vector<Vector2> const corners = outlinePoints(body.shape);
+  Vector2 const low{deck.x.from, deck.y.from}, high{deck.x.to, deck.y.to};
+  bool const aligned = corners[0][1] == corners[1][1] && corners[1][0] == corners[2][0];
+  for (int k = 0; k < 4; ++k)
+    for (int d = 0; d < 2; ++d)
+    {
+      double const inside = std::clamp(corners[k][d], low[d], high[d]);
+      if (!aligned && inside != corners[k][d])
+        throw DeckError("bodies/" + body.name +
+                        ": a rotated block of kinematics lagrangian must lie inside the domain");
+      block.corner[k][d] = inside;
+    }
+  double const part[2] = {(block.corner[1][0] - block.corner[0][0]) / (corners[1][0] - corners[0][0]),
+                          (block.corner[3][1] - block.corner[0][1]) / (corners[3][1] - corners[0][1])};
+  for (int d = 0; d < 2; ++d)
+    block.cells[d] = aligned ? std::max(1, static_cast<int>(std::lround(body.cells[d] * part[d]))) : body.cells[d];
+  return block;
+}
+
+/// A row of rigid cells behind a side of the domain: what a contact wall is to a body-fitted mesh.
+MappedBlock wallBlock(Deck const &deck, int side)
+{
+  double const x0 = deck.x.from, x1 = deck.x.to, y0 = deck.y.from, y1 = deck.y.to;
+  double const dx = (x1 - x0) / deck.x.cells, dy = (y1 - y0) / deck.y.cells;
+  int const nx = deck.x.cells, ny = deck.y.cells;
+  auto const box = [](double xa, double ya, double xb, double yb, int cx, int cy) {
+    return MappedBlock{{Corner{xa, ya}, Corner{xb, ya}, Corner{xb, yb}, Corner{xa, yb}}, {cx, cy}};
+  };
+  switch (side)
+  {
+  case Left:
+    return box(x0 - dx, y0 - dy, x0, y1 + dy, 1, ny + 2);
+  case Right:
+    return box(x1, y0 - dy, x1 + dx, y1 + dy, 1, ny + 2);
+  case Bottom:
+    return box(x0 - dx, y0 - dy, x1 + dx, y0, nx + 2, 1);
+  default:
+    return box(x0 - dx, y1, x1 + dx, y1 + dy, nx + 2, 1);
+  }
+}
+
+/// The domain side on which both ends of a face lie, or -1.
+int sideOf(Deck const &deck, Corner const &a, Corner const &b)
+{
+  double const near_x = 1e-9 * (deck.x.to - deck.x.from), near_y = 1e-9 * (deck.y.to - deck.y.from);
+  auto const on = [&](int d, double at, double near)
+  { return std::fabs(a[d] - at) < near && std::fabs(b[d] - at) < near; };
+  if (on(0, deck.x.from, near_x))
+    return Left;
+  if (on(0, deck.x.to, near_x))
+    return Right;
+  if (on(1, deck.y.from, near_y))
+    return Bottom;
+  if (on(1, deck.y.to, near_y))
+    return Top;
+  return -1;
+}
+
+/// Contact walls of kinematics lagrangian, in the order of the sides: each is a rigid material after the deck's fields.
+std::vector<int> wallSides(Deck const &deck)
+{
+  std::vector<int> sides;
+  if (deck.kinematics == Kinematics::Lagrangian)
+    for (int side = 0; side < num_boundary_sides; ++side)
+      if (deck.boundary[side].kind == BoundaryKind::ContactWall)
+        sides.push_back(side);
+  return sides;
+}
+
+DeckMesh makeBlockMesh(Deck const &deck)
+{
+  std::vector<MappedBlock> blocks;
+  for (BodySpec const &body : deck.bodies)
+    blocks.push_back(bodyBlock(deck, body));
+  for (int side : wallSides(deck))
+    blocks.push_back(wallBlock(deck, side));
+  BlockMesh made = mappedBlocks(blocks);
+  int const num_bodies = static_cast<int>(deck.bodies.size());
+  for (std::size_t c = 0; c < made.mesh.cell.size(); ++c)
+    for (int k = 0; k < 4; ++k)
+    {
+      int &boundary = made.mesh.face_boundary[c][k];
+      if (boundary < 0)
+        continue;
+      boundary = made.cell_block[c] >= num_bodies ? -1
+                                                  : sideOf(deck, made.mesh.node[made.mesh.cell[c][k]],
+                                                           made.mesh.node[made.mesh.cell[c][(k + 1) % 4]]);
+      // A one-sided wall is a body of its own here: the block's face towards it is free.
+      if (boundary >= 0 && deck.boundary[boundary].kind == BoundaryKind::ContactWall)
+        boundary = -1;
+    }
+  return {made.mesh, made.cell_block};
+}
+
+RigidBody rigidBody(Deck const &deck, BodySpec const &spec, Shape const &shape)
+{
+  RigidBody body;
+  body.material = spec.field;
+  body.motion = spec.motion;
+  body.centre = shape.centroid();
+  double const density = deck.laws[spec.law].law.density0;
+  body.mass = density * shape.area();
+  body.inertia = density * shape.inertia();
+  body.angular_velocity = spec.angular_velocity;
+  body.velocity = spec.velocity + spec.angular_velocity * perpendicular(body.centre - spec.shape.reference());
+  return body;
+}
+
+void addRigidBodies(Deck const &deck, Scene &scene)
+{
+  scene.rigid_start.resize(deck.num_rigid_bodies);
+  scene.rigid_shape.resize(deck.num_rigid_bodies);
+  for (BodySpec const &spec : deck.bodies)
+  {
+    int const number = deck.fields[spec.field].rigid_body;
+    if (number < 0)
+      continue;
+    scene.rigid_shape[number] = makeShape(spec.shape);
+    scene.rigid_start[number] = rigidBody(deck, spec, scene.rigid_shape[number]);
+  }
+}
+
+Body paintedBody(BodySpec const &spec)
+{
+  Body body;
+  body.shape = makeShape(spec.shape);
+  body.material = spec.field;
+  body.velocity = spec.velocity;
+  body.angular_velocity = spec.angular_velocity;
+  body.rotation_centre = spec.shape.reference();
+  body.density = spec.density;
+  body.specific_volume = 1.0 / spec.density;
+  body.internal_energy = spec.internal_energy;
+  body.cut_from_earlier = spec.cut;
+  return body;
+}
+
+/// One pair a cell, filled; velocities of the body at the nodes.
+void fillBlocks(Deck const &deck, DeckMesh const &whole, Scene const &scene, CycleState &s)
+{
+  Mesh const &mesh = scene.mesh;
+  int const n = mesh.num_cells;
+  s.pairs.num_pairs = n;
+  s.pairs.offset = View<int *>("offset", n + 1);
+  s.pairs.material = View<int *>("material", n);
+  s.pairs.cell = View<int *>("cell", n);
+  s.state.record = View<double *[num_pair_fields]>("record", n);
+  s.state.centroid = View<double *[2]>("centroid", n);
+  auto offset = Kokkos::create_mirror_view(s.pairs.offset);
+  auto material = Kokkos::create_mirror_view(s.pairs.material);
+  auto cell = Kokkos::create_mirror_view(s.pairs.cell);
+  auto record = Kokkos::create_mirror_view(s.state.record);
+  auto const area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_area);
+  auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_global);
+  int const num_bodies = static_cast<int>(deck.bodies.size());
+  for (int c = 0; c < n; ++c)
+  {
+    int const block = whole.cell_body[global(c)];
+    bool const wall = block >= num_bodies;
+    double const density = wall ? 1.0 : deck.bodies[block].density;
+    offset(c) = cell(c) = c;
+    material(c) = wall ? static_cast<int>(deck.fields.size()) + block - num_bodies : deck.bodies[block].field;
+    record(c, Mass) = density * area(c);
+    record(c, VolumeFraction) = 1.0;
+    record(c, SpecificVolume) = 1.0 / density;
+    record(c, InternalEnergy) = wall ? 0.0 : deck.bodies[block].internal_energy;
+  }
+  offset(n) = n;
+  Kokkos::deep_copy(s.pairs.offset, offset);
+  Kokkos::deep_copy(s.pairs.material, material);
+  Kokkos::deep_copy(s.pairs.cell, cell);
+  Kokkos::deep_copy(s.state.record, record);
+
+  s.dof_nodes = buildDofNodes(mesh, Kinematics::Lagrangian, s.state.record, s.pairs);
+  s.state.velocity = View<double *[2]>("velocity", s.dof_nodes.num_dof_nodes);
+  auto velocity = Kokkos::create_mirror_view(s.state.velocity);
+  auto const position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
+  auto const dof_node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.pairs.dof_node);
+  auto const cell_node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_node);
+  for (int c = 0; c < n; ++c)
+  {
+    int const block = whole.cell_body[global(c)];
+    if (block >= num_bodies)
+      continue;
+    BodySpec const &body = deck.bodies[block];
+    for (int k = 0; k < 4; ++k)
+    {
+      Vector2 const x{position(cell_node(c, k), 0), position(cell_node(c, k), 1)};
+      Vector2 const v = body.velocity + body.angular_velocity * perpendicular(x - body.shape.reference());
+      for (int d = 0; d < 2; ++d)
+        velocity(dof_node(c, k), d) = v[d];
+    }
+  }
+  Kokkos::deep_copy(s.state.velocity, velocity);
+}
+
+} // namespace
+
+DeckMesh makeMesh(Deck const &deck)
+{
+  if (deck.kinematics == Kinematics::Lagrangian)
+    return makeBlockMesh(deck);
+  return {rectilinearMesh(gridLines(deck.x), gridLines(deck.y)), {}};
+}
+
+Shape makeShape(ShapeSpec const &spec)
+{
+  switch (spec.kind)
+  {
+  case ShapeKind::Rectangle:
+    return Shape::rectangle(spec.reference(), spec.size, spec.angle);
+  case ShapeKind::Disc:
+    return Shape::disc(spec.reference(), spec.outer_radius);
+  case ShapeKind::Annulus:
+    return Shape::annulus(spec.reference(), spec.inner_radius, spec.outer_radius);
+  case ShapeKind::Polygon:
+    return Shape::polygon(spec.points).moved(spec.shift, spec.angle);
+  case ShapeKind::HalfPlane:
+    return Shape::halfPlane(spec.center, spec.normal).moved(spec.shift, spec.angle);
+  }
+  throw std::logic_error("a shape of unknown kind");
+}
+
+Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange const &exchange)
+{
+  Scene scene;
+  scene.kinematics = deck.kinematics;
+  scene.mesh = mesh;
+  scene.exchange = &exchange;
+  scene.boundary = buildBoundaryConditions(
+      mesh, deviceCopy("boundary", std::vector<Boundary>(deck.boundary, deck.boundary + num_boundary_sides)));
+  addRigidBodies(deck, scene);
+
+  std::vector<Material> materials;
+  for (std::size_t field = 0; field < deck.fields.size(); ++field)
+    materials.push_back(deck.fieldMaterial(static_cast<int>(field)));
+  std::vector<int> const walls = wallSides(deck);
+  for (std::size_t w = 0; w < walls.size(); ++w)
+  {
+    RigidBody body;
+    body.material = static_cast<int>(materials.size());
+    Material wall;
+    wall.rigid_body = static_cast<int>(scene.rigid_start.size());
+    wall.density0 = 1.0;
+    scene.rigid_start.push_back(body);
+    materials.push_back(wall);
+  }
+  scene.materials = deviceCopy("materials", materials);
+
+  int const m = static_cast<int>(materials.size()), f = static_cast<int>(deck.fields.size());
+  scene.lagrange = deck.lagrange;
+  scene.reconstruction = deck.reconstruction;
+  if (!deck.removal_order.empty())
+    scene.reconstruction.order = deviceCopy("removal_order", deck.removal_order);
+  scene.constraint = deck.constraint;
+  scene.constraint.interaction = View<int **>("interaction", m, m);
+  auto interaction = Kokkos::create_mirror_view(scene.constraint.interaction);
+  for (int a = 0; a < m; ++a)
+    for (int b = 0; b < m; ++b)
+      interaction(a, b) = static_cast<int>(a < f && b < f ? deck.interaction[a * f + b] : Interaction::Sliding);
+  Kokkos::deep_copy(scene.constraint.interaction, interaction);
+  scene.remap = deck.remap;
+  if (deck.run.max_dt > 0.0)
+    scene.max_dt = deck.run.max_dt;
+  return scene;
+}
+
+CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const &scene)
+{
+  CycleState s;
+  s.bodies = scene.rigid_start;
+  if (deck.kinematics == Kinematics::Lagrangian)
+    fillBlocks(deck, whole, scene, s);
+  else
+  {
+    std::vector<Body> bodies;
+    for (BodySpec const &spec : deck.bodies)
+      bodies.push_back(paintedBody(spec));
+    Painting painting = paint(scene.mesh, bodies);
+    s.pairs = painting.pairs;
+    s.state.record = painting.record;
+    s.state.centroid = painting.centroid;
+    s.dof_nodes = buildDofNodes(scene.mesh, deck.kinematics, s.state.record, s.pairs);
+    s.state.velocity = initialVelocity(scene.mesh, bodies, s.pairs, s.dof_nodes, s.state.record);
+  }
+  setRigidVelocities(scene, s);
+  setFirstTimeStep(deck, scene, s);
+  return s;
+}
+
+void setFirstTimeStep(Deck const &deck, Scene const &scene, CycleState &s)
+{
+  prepareWork(s.pairs, s.dof_nodes, s.work);
+  computeNodeAltitudes(scene.mesh, s.work);
+  computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
+  s.limit = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
+  s.dt = std::min(scene.exchange->min(s.limit.dt), scene.max_dt);
+  if (deck.run.initial_dt > 0.0)
+    s.dt = std::min(s.dt, deck.run.initial_dt);
+}
+
+} // namespace Harmos

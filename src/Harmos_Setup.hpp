@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_SETUP_HPP
+#define HARMOS_SETUP_HPP
+
+#include "Harmos_TimeStep.hpp"
+
+#include <Harmos_Deck.hpp>
+#include <Harmos_HostMesh.hpp>
+
+namespace Harmos
+{
+
+/// Layers of halo cells that the cycle needs (doc/decisions/0003).
+constexpr int halo_layers = 5;
+
+/// The whole mesh of a deck: its rectilinear grid, or the blocks of its bodies (lagrangian).
+struct DeckMesh
+{
+  HostMesh mesh;
+  std::vector<int> cell_body;     // lagrangian: body of each cell; else empty
+  std::vector<int> boundary_side; // boundary number -> BoundarySide
+};
+DeckMesh makeMesh(Deck const &deck);
+
+/// The outline of a body.
+Shape makeShape(ShapeSpec const &spec);
+
+/// Everything that does not change: `mesh` and `exchange` are given, the rest comes from the deck.
+Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Exchange const &exchange);
+
+/// The state at time zero: painted bodies (or blocks), their velocities, the first time step.
+CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const &scene);
+
+/// The first time step of a state, or of a state that a checkpoint gave without one.
+void setFirstTimeStep(Deck const &deck, Scene const &scene, CycleState &state);
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_Totals.hpp"
+
+namespace Harmos
+{
+namespace
+{
+
+/// sum m |v| over the corners of the owned deformable pairs, and the number of owned pairs, mixed ones last.
+struct PairCounts
+{
+  double speed_momentum;
+  long long pairs, mixed;
+};
+
+PairCounts countPairs(Scene const &scene, CycleState const &s)
+{
+  auto const mesh = scene.mesh;
+  auto const pairs = s.pairs;
+  auto const record = s.state.record;
+  auto const velocity = s.state.velocity;
+  auto const materials = scene.materials;
+  PairCounts counts{};
+  Kokkos::parallel_reduce(
+      "Harmos::countPairs", RangePolicy(0, pairs.num_pairs),
+      KOKKOS_LAMBDA(int pair, double &speed, long long &owned, long long &mixed) {
+        int const cell = pairs.cell(pair);
+        if (mesh.cell_depth(cell) != 0)
+          return;
+        ++owned;
+        mixed += pairs.cell_kind(cell) == MixedCell ? 1 : 0;
+        if (materials(pairs.material(pair)).rigid_body >= 0)
+          return;
+        for (int k = 0; k < 4; ++k)
+        {
+          int const dof = pairs.dof_node(pair, k);
+          speed += 0.25 * record(pair, Mass) * norm(Vector2{velocity(dof, 0), velocity(dof, 1)});
+        }
+      },
+      counts.speed_momentum, counts.pairs, counts.mixed);
+  return counts;
+}
+
+/// Least and greatest coordinates of the filled regions of all ranks: x_min, x_max, y_min, y_max by material.
+std::vector<double> extents(Scene const &scene, CycleState const &s, FilledRegions const &regions, int num_materials)
+{
+  double const none = 1e300;
+  auto const mesh = scene.mesh;
+  auto const pairs = s.pairs;
+  std::vector<double> result;
+  // A minimum does not depend on the order. Materials are few: each takes a pass of its own.
+  for (int m = 0; m < num_materials; ++m)
+  {
+    double least[4] = {none, none, none, none};
+    Kokkos::parallel_reduce(
+        "Harmos::extents", RangePolicy(0, pairs.num_pairs),
+        KOKKOS_LAMBDA(int pair, double &x_low, double &x_high, double &y_low, double &y_high) {
+          int const cell = pairs.cell(pair);
+          if (pairs.material(pair) != m || mesh.cell_depth(cell) != 0)
+            return;
+          Region const region = regions.region(mesh, pairs, pair);
+          for (int i = 0; i < region.size; ++i)
+          {
+            x_low = Math::min(x_low, region[i][0]);
+            x_high = Math::min(x_high, -region[i][0]);
+            y_low = Math::min(y_low, region[i][1]);
+            y_high = Math::min(y_high, -region[i][1]);
+          }
+        },
+        Kokkos::Min<double>(least[0]), Kokkos::Min<double>(least[1]), Kokkos::Min<double>(least[2]),
+        Kokkos::Min<double>(least[3]));
+    for (int side = 0; side < 4; ++side)
+    {
+      double const all = scene.exchange->min(least[side]);
+      result.push_back(all == none ? 0.0 : (side % 2 == 0 ? all : -all));
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+long long countOwnedPairs(Mesh const &mesh, CellMaterialPairs const &pairs)
+{
+  long long owned = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::countOwnedPairs", RangePolicy(0, pairs.num_pairs),
+      KOKKOS_LAMBDA(int pair, long long &part) { part += mesh.cell_depth(pairs.cell(pair)) == 0 ? 1 : 0; }, owned);
+  return owned;
+}
+
+Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials, bool with_extents)
+{
+  int const all_materials = static_cast<int>(scene.materials.extent(0));
+  MaterialSums const sums = materialSums(scene.mesh, s.pairs, s.state.record, s.state.velocity, all_materials);
+  PairCounts const counts = countPairs(scene, s);
+
+  std::vector<double> flat;
+  for (int m = 0; m < all_materials; ++m)
+    for (int i = 0; i < PlasticStrainMax; ++i)
+      flat.push_back(sums(m, i));
+  flat.push_back(counts.speed_momentum);
+  scene.exchange->sum(flat.data(), static_cast<int>(flat.size()));
+  long long whole[2] = {counts.pairs, counts.mixed};
+  scene.exchange->sum(whole, 2);
+
+  Totals totals;
+  totals.pairs = whole[0];
+  totals.pairs_mixed = whole[1];
+  totals.speed_momentum = flat.back();
+  totals.material.resize(num_materials);
+  std::vector<int> body_of(all_materials, -1);
+  for (std::size_t b = 0; b < s.bodies.size(); ++b)
+    body_of[s.bodies[b].material] = static_cast<int>(b);
+
+  for (int m = 0; m < all_materials; ++m)
+  {
+    double const *sum = flat.data() + PlasticStrainMax * m;
+    HistoryMaterial row;
+    row.mass = sum[SumMass];
+    row.volume = sum[SumVolume];
+    row.momentum_x = sum[SumMomentumX];
+    row.momentum_y = sum[SumMomentumY];
+    row.kinetic_energy = sum[SumKineticEnergy];
+    row.internal_energy = sum[SumInternalEnergy];
+    row.plastic_strain_max = scene.exchange->max(sums(m, PlasticStrainMax));
+    double angular = sum[SumAngularMomentum];
+    bool counted = true;
+    if (body_of[m] >= 0)
+    {
+      RigidBody const &body = s.bodies[body_of[m]];
+      counted = body.motion == RigidMotion::Free;
+      if (counted)
+      {
+        row.mass = body.mass;
+        row.momentum_x = body.mass * body.velocity[0];
+        row.momentum_y = body.mass * body.velocity[1];
+        row.kinetic_energy = 0.5 * body.mass * dot(body.velocity, body.velocity) +
+                             0.5 * body.inertia * body.angular_velocity * body.angular_velocity;
+        angular = body.mass * cross(body.centre, body.velocity) + body.inertia * body.angular_velocity;
+        totals.speed_momentum += body.mass * norm(body.velocity);
+      }
+    }
+    if (counted)
+    {
+      totals.mass += row.mass;
+      totals.momentum_x += row.momentum_x;
+      totals.momentum_y += row.momentum_y;
+      totals.angular_momentum += angular;
+      totals.kinetic_energy += row.kinetic_energy;
+      totals.internal_energy += row.internal_energy;
+    }
+    if (m < num_materials)
+      totals.material[m] = row;
+  }
+
+  if (with_extents)
+  {
+    std::vector<double> const extent = extents(scene, s, s.regions, num_materials);
+    for (int m = 0; m < num_materials; ++m)
+    {
+      totals.material[m].x_min = extent[4 * m];
+      totals.material[m].x_max = extent[4 * m + 1];
+      totals.material[m].y_min = extent[4 * m + 2];
+      totals.material[m].y_max = extent[4 * m + 3];
+    }
+  }
+  return totals;
+}
+
+} // namespace Harmos

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_Interrupt.hpp"
+#include "Harmos_Simulation.hpp"
+#include "Harmos_Version.hpp"
+
+#include <Harmos_DeckReader.hpp>
+#include <Harmos_DeckSchema.hpp>
+
+#include <Tpetra_Core.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+char const usage[] =
+    "usage: harmos run DECK.yaml [--output DIR] [--set 'path/to/key=value' ...] [--restart FILE] [--force]\n"
+    "       harmos check DECK.yaml [--set 'path/to/key=value' ...]\n"
+    "       harmos schema\n"
+    "       harmos --version | --help\n"
+    "\n"
+    "run      runs a deck; results go to DIR (default: results-DECK). SI units.\n"
+    "check    reads and checks a deck, runs nothing\n"
+    "schema   lists every key of a deck: type, default, unit, allowed values\n"
+    "--set    overrides a key of the deck; may be given many times\n"
+    "--force  overwrites results that are in DIR\n"
+    "--restart continues from a checkpoint, to the same history\n"
+    "\n"
+    "exit status: 0 done, 2 bad input, 3 failed run, 4 interrupted (a checkpoint was written)\n";
+
+struct Arguments
+{
+  std::string command;
+  std::string deck;
+  std::vector<std::string> overrides;
+  Harmos::RunOptions run;
+};
+
+Arguments parseArguments(int argc, char **argv)
+{
+  Arguments arguments;
+  auto const value = [&](int &i)
+  {
+    if (i + 1 >= argc)
+      throw Harmos::DeckError(std::string(argv[i]) + " needs a value");
+    return std::string(argv[++i]);
+  };
+  for (int i = 1; i < argc; ++i)
+  {
+    std::string const word = argv[i];
+    if (word == "--output")
+      arguments.run.directory = value(i);
+    else if (word == "--set")
+      arguments.overrides.push_back(value(i));
+    else if (word == "--restart")
+      arguments.run.restart = value(i);
+    else if (word == "--force")
+      arguments.run.force = true;
+    else if (word == "--version" || word == "--help" || word == "-h")
+      arguments.command = word;
+    else if (word.size() > 1 && word[0] == '-')
+      throw Harmos::DeckError("unknown option '" + word +
+                              "'; allowed: --output, --set, --restart, --force, --version, --help");
+    else if (arguments.command.empty())
+      arguments.command = word;
+    else if (arguments.deck.empty())
+      arguments.deck = word;
+    else
+      throw Harmos::DeckError("one deck at a time: '" + word + "' is too many");
+  }
+  bool const takes_deck = arguments.command == "run" || arguments.command == "check";
+  if (takes_deck && arguments.deck.empty())
+    throw Harmos::DeckError("'harmos " + arguments.command + "' needs a deck");
+  if (arguments.run.directory.empty())
+    arguments.run.directory = "results-" + std::filesystem::path(arguments.deck).stem().string();
+  return arguments;
+}
+
+int dispatch(Arguments const &arguments, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
+{
+  bool const speaks = comm->getRank() == 0;
+  if (arguments.command == "--version")
+  {
+    if (speaks)
+      for (auto const &item : Harmos::versions())
+        std::printf("%s %s\n", item.first.c_str(), item.second.c_str());
+    return Harmos::Completed;
+  }
+  if (arguments.command == "--help" || arguments.command == "-h")
+  {
+    if (speaks)
+      std::fputs(usage, stdout);
+    return Harmos::Completed;
+  }
+  if (arguments.command == "schema")
+  {
+    if (speaks)
+      Harmos::printSchema(std::cout);
+    return Harmos::Completed;
+  }
+  if (arguments.command != "run" && arguments.command != "check")
+  {
+    if (speaks)
+      std::fputs(usage, stderr);
+    return Harmos::BadInput;
+  }
+  Harmos::Deck const deck = Harmos::readDeck(arguments.deck, arguments.overrides, *comm);
+  if (arguments.command == "check")
+  {
+    if (speaks)
+      std::printf("%s: good (%zu bodies, %d x %d cells)\n", arguments.deck.c_str(), deck.bodies.size(), deck.x.cells,
+                  deck.y.cells);
+    return Harmos::Completed;
+  }
+  Harmos::catchInterrupts();
+  return Harmos::simulate(deck, arguments.run, comm);
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+  Tpetra::ScopeGuard scope(&argc, &argv);
+  auto const comm = Tpetra::getDefaultComm();
+  try
+  {
+    return dispatch(parseArguments(argc, argv), comm);
+  }
+  catch (Harmos::DeckError const &error)
+  {
+    // Every rank throws alike; one speaks.
+    if (comm->getRank() == 0)
+      std::fprintf(stderr, "harmos: %s\n", error.what());
+    return Harmos::BadInput;
+  }
+  catch (std::exception const &error)
+  {
+    std::fprintf(stderr, "harmos: rank %d: %s\n", comm->getRank(), error.what());
+    if (comm->getSize() > 1)
+      MPI_Abort(MPI_COMM_WORLD, Harmos::FailedRun);
+    return Harmos::FailedRun;
+  }
+}

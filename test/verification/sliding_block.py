@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Block between frictionless rigid platens: momentum along the platens is constant at any angle and offset."""
+import random
+from math import cos, radians, sin
+
+from harness import check, clean, harmos, run
+
+DECK = "sliding_block/deck.yaml"
+
+
+def settings(angle, offset, cells, pressure=0.0, slide=1.0, speed=100.0, kinematics="xfem"):
+    """Overrides of the deck: block of height 1 with `cells` cells over it slides `slide` along `angle` (degrees)."""
+    a = radians(angle)
+    t, n = (cos(a), sin(a)), (-sin(a), cos(a))
+    h = 1.0 / cells
+    count = round(3.2 * cells)
+    ox, oy = offset[0] * h, offset[1] * h
+    vec = lambda x, y: f"[{x!r}, {y!r}]"
+    s = {
+        "kinematics": kinematics,
+        "mesh/x": f"{{from: {-count * h / 2!r}, to: {count * h / 2!r}, cells: {count}}}",
+        "mesh/y": f"{{from: {-count * h / 2!r}, to: {count * h / 2!r}, cells: {count}}}",
+        "bodies/block/center": vec(ox - 0.5 * slide * t[0], oy - 0.5 * slide * t[1]),
+        "bodies/block/angle": float(angle),
+        "bodies/block/velocity": vec(speed * t[0], speed * t[1]),
+        "bodies/lower/point": vec(ox - 0.5 * n[0], oy - 0.5 * n[1]),
+        "bodies/lower/normal": vec(*n),
+        "bodies/upper/point": vec(ox + 0.5 * n[0], oy + 0.5 * n[1]),
+        "bodies/upper/normal": vec(-n[0], -n[1]),
+        "run/end_time": slide / speed,
+        "output/fields/every_time": 0.0,
+        "output/history/every_cycles": 1,
+    }
+    if pressure:
+        s["bodies/block/pressure"] = pressure
+    return s
+
+
+def momentum_error(r, angle, speed=100.0):
+    """Largest change of the block's momentum along the platens over m V."""
+    a = radians(angle)
+    along = [px * cos(a) + py * sin(a) for px, py in zip(r["block.momentum_x"], r["block.momentum_y"])]
+    return max(abs(p - along[0]) for p in along) / (r.first("block.mass") * speed)
+
+
+ANGLES = [0.0, 7.0, 15.0, 22.5, 30.0, 45.0]
+OFFSETS = [(0.0, 0.0), (0.31, 0.17), (0.5, 0.77)]
+# Initial pressure of the squeezed block: 1% of its longitudinal modulus.
+SQUEEZE = 0.01 * 2700.0 * 5000.0**2
+
+
+def sweep(cells, pressure, bound):
+    worst = 0.0
+    for angle in ANGLES:
+        for offset in OFFSETS:
+            r = harmos(DECK, settings(angle, offset, cells, pressure))
+            error = momentum_error(r, angle)
+            print(f"  angle {angle:4.1f} offset {offset}: {error:.2e}, unconverged {r.summary['unconverged_cycles']}")
+            worst = max(worst, error)
+            check("momentum ledger", r.summary["momentum_error"], 1e-12)
+            check("energy ledger", r.summary["energy_error"], 1e-10)
+            clean(r)
+    check(f"worst momentum error, {cells} cells, pressure {pressure:.1e}", worst, bound)
+
+
+def test_unloaded_block_keeps_its_momentum():
+    sweep(8, 0.0, 5e-4)
+
+
+def test_squeezed_block_keeps_its_momentum():
+    sweep(8, SQUEEZE, 3e-3)
+
+
+def test_single_velocity_block_sticks():
+    r = harmos(DECK, settings(30.0, OFFSETS[1], 8, kinematics="single"))
+    error = momentum_error(r, 30.0)
+    print(f"  single: momentum error {error:.2f}")
+    assert error > 0.3
+    clean(r)
+
+
+if __name__ == "__main__":
+    run(globals())

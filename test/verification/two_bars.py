@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two elastic bars: contact stress rho c V/2, duration 2 L/c, velocities exchanged (exact 1-D elastic impact)."""
+from math import sqrt
+
+from harness import check, clean, harmos, run
+
+RHO, C0, G, L, V, HEIGHT = 7800.0, 4600.0, 80.0e9, 1.0, 10.0, 0.0125
+C = sqrt(C0 * C0 + 4.0 * G / (3.0 * RHO))
+H = 0.0125  # 80 cells over a bar
+QUIET = {"output/fields/every_time": 0.0}
+
+
+def velocity(r, name, row=-1):
+    return r[name + ".momentum_x"][row] / r[name + ".mass"][row]
+
+
+def contact(r):
+    """Force history on bar left by right, per unit depth and height, with its times."""
+    import csv
+    times, stress = [], []
+    with open(r.directory / "contact.csv", newline="") as file:
+        for row in csv.DictReader(file):
+            if {row["a"], row["b"]} == {"left", "right"}:
+                times.append(float(row["time"]))
+                stress.append(abs(float(row["force_x"])) / HEIGHT)
+    return times, stress
+
+
+def bars(offset, gap=0.0, **more):
+    settings = {
+        "bodies/left/center": f"[{-0.5 + offset - gap}, 0.0]",
+        "bodies/right/center": f"[{0.5 + offset}, 0.0]",
+        **QUIET,
+        **more,
+    }
+    return harmos("two_bars/deck.yaml", settings)
+
+
+def duration(times, stress, plateau):
+    loaded = [t for t, s in zip(times, stress) if s > 0.5 * plateau]
+    return loaded[-1] - loaded[0]
+
+
+# An offset in cells puts the interface at that place of a cell.
+OFFSETS = {"on a cell face": 0.0, "in the middle of a cell": 0.5, "Vf 1e-12": 1e-12, "Vf 1 - 1e-12": -1e-12, "Vf 0.01": 0.01, "Vf 0.3": 0.3}
+
+
+def test_bars_exchange_their_velocities_wherever_the_interface_is():
+    exits = []
+    for name, cells in OFFSETS.items():
+        r = bars(cells * H)
+        exits.append(velocity(r, "right") / (V / 2))
+        times, stress = contact(r)
+        plateau = RHO * C * V / 2
+        middle = [s for t, s in zip(times, stress) if 0.5 * L / C < t < 1.5 * L / C]
+        mean = sum(middle) / len(middle)
+        print(f"  {name}: exit {exits[-1]:.5f}, stress {mean / plateau:.5f}, duration {duration(times, stress, plateau) * C / (2 * L):.5f}")
+        check("exit velocity of the right bar", abs(velocity(r, "right") - V / 2) / (V / 2), 0.03)
+        check("exit velocity of the left bar", abs(velocity(r, "left") + V / 2) / (V / 2), 0.03)
+        check("plateau stress", abs(mean - plateau) / plateau, 0.01)
+        check("duration", abs(duration(times, stress, plateau) - 2 * L / C) / (2 * L / C), 0.01)
+        check("momentum", max(abs(p) for p in r["momentum_x"]) / (2 * r.first("left.mass") * V / 2), 1e-12)
+        check("mass", abs(r.last("mass") - r.first("mass")) / r.first("mass"), 1e-12)
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        clean(r)
+    check("spread over interface positions", max(exits) - min(exits), 2e-3)
+
+
+def test_a_gap_closes_before_any_force():
+    gap = 2.3 * H
+    r = bars(0.25 * H, gap)
+    times, stress = contact(r)
+    first = next(t for t, s in zip(times, stress) if s > 0.0)
+    check("start of contact", abs(first - gap / V) / (L / C), 0.02)
+    check("exit velocity", abs(velocity(r, "right") - V / 2) / (V / 2), 0.03)
+    clean(r)
+
+
+def test_single_velocity_bars_do_not_part():
+    r = bars(0.5 * H, **{"kinematics": "single"})
+    # Glued bars ring; they do not fly apart: the gap between them stays closed, while xfem leaves with V.
+    xfem = bars(0.5 * H)
+    parted = lambda q: q.last("right.x_min") - q.last("left.x_max")
+    print(f"  gap at the end, cells: single {parted(r) / H:.3f}, xfem {parted(xfem) / H:.3f}")
+    assert parted(xfem) > 0.05 * H
+    assert parted(r) < 0.2 * parted(xfem)
+    clean(r, xfem)
+
+
+def test_unequal_impedances_share_the_stress():
+    rho2, c2 = 2700.0, 5000.0
+    r = bars(0.5 * H, **{
+        "materials/light": f"{{eos: stiffened, density: {rho2}, sound_speed: {c2}}}",
+        "bodies/right/material": "light",
+    })
+    z1, z2 = RHO * C, rho2 * c2
+    exact = V * z1 * z2 / (z1 + z2)
+    times, stress = contact(r)
+    middle = [s for t, s in zip(times, stress) if 0.5 * L / C < t < 1.5 * L / C]
+    check("plateau stress", abs(sum(middle) / len(middle) - exact) / exact, 0.01)
+    clean(r)
+
+
+run(globals())
