@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+include(GNUInstallDirs)
 
 # harmos_add_package(<name> [SOURCES ...] [DEPENDS ...] [LINK ...])
 # Library harmos_<name> (alias Harmos::<name>) in the current folder. Without SOURCES: an interface library.
@@ -19,8 +20,13 @@ function(harmos_add_package name)
   endif()
   add_library(Harmos::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>)
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/harmos>)
+  target_compile_features(${target} ${scope} cxx_std_17)
   target_link_libraries(${target} ${scope} ${links})
+  install(TARGETS ${target} EXPORT HarmosTargets)
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/harmos
+    FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN bench EXCLUDE PATTERN cmake EXCLUDE)
 endfunction()
 
 # harmos_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [RANKS n ...])

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_RunOutput.hpp"
 
+#include "Harmos_Version.hpp"
 #include <Harmos_FieldSnapshot.hpp>
-#include <Harmos_Version.hpp>
 
 #include <Teuchos_DefaultMpiComm.hpp>
 

@@ -169,6 +169,7 @@ Body paintedBody(BodySpec const &spec)
   body.specific_volume = 1.0 / spec.density;
   body.internal_energy = spec.internal_energy;
   body.cut_from_earlier = spec.cut;
+  body.name = spec.name;
   return body;
 }
 
@@ -314,11 +315,11 @@ CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const
     for (BodySpec const &spec : deck.bodies)
       bodies.push_back(paintedBody(spec));
     Painting painting = paint(scene.mesh, bodies);
-    s.pairs = painting.pairs;
     s.state.record = painting.record;
     s.state.centroid = painting.centroid;
-    s.dof_nodes = buildDofNodes(scene.mesh, deck.kinematics, s.state.record, s.pairs);
-    s.state.velocity = initialVelocity(scene.mesh, bodies, s.pairs, s.dof_nodes, s.state.record);
+    s.dof_nodes = buildDofNodes(scene.mesh, deck.kinematics, s.state.record, painting.pairs);
+    s.pairs = painting.pairs;
+    s.state.velocity = paintedVelocity(scene.mesh, bodies, painting, s.dof_nodes);
   }
   setRigidVelocities(scene, s);
   setFirstTimeStep(deck, scene, s);

@@ -18,7 +18,6 @@ struct DeckMesh
 {
   HostMesh mesh;
   std::vector<int> cell_body;     // lagrangian: body of each cell; else empty
-  std::vector<int> boundary_side; // boundary number -> BoundarySide
 };
 DeckMesh makeMesh(Deck const &deck);
 

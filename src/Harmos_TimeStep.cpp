@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_TimeStep.hpp"
 
+#include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Paint.hpp>
 #include <Harmos_StateExchange.hpp>
 
@@ -224,7 +225,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     {
       PhaseTimer timer("remap", times.remap);
       RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
-                                 scene.materials, work.half, dt, rigid, scene.remap, report.remap);
+                                 scene.materials, work.half, dt, rigid, scene.remap, report.remap, s.remap_work);
       s.pairs = result.pairs;
       s.dof_nodes = result.dof_nodes;
       s.state = result.state;

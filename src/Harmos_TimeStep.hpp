@@ -37,7 +37,8 @@ struct CycleState
   NodeMaterialPairs dof_nodes;
   PairState state;
   FilledRegions regions; // of this state
-  LagrangeWork work;     // scratch, kept from cycle to cycle
+  LagrangeWork work;            // scratch, kept from cycle to cycle
+  RemapWork remap_work;         // the same
   std::vector<RigidBody> bodies;
   double time = 0.0;   // [s], of the records; velocities are half a step behind
   double dt = 0.0;     // of the next cycle [s]

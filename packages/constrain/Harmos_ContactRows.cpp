@@ -31,10 +31,10 @@ BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials
 namespace
 {
 
-/// Contact normal at a segment's midpoint, from the segments of the two materials in the 7 x 7 cells around it. `target` is
-/// what the segment's ray meets, a segment of another material (no wall).
+/// Contact normal at a segment's midpoint, from the segments of the two materials in the 7 x 7 cells around it.
+/// `target` is what the segment's ray meets, a segment of another material (no wall).
 KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
-                                      SegmentBins const &bins, double shortest, int slave, int target)
+                                             SegmentBins const &bins, double shortest, int slave, int target)
 {
   constexpr double least_cosine = 0.9; // of the facets that the fit takes
   InterfaceSegment const &s = segment(slave);
@@ -44,22 +44,25 @@ KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &seg
   double omega[max_fit_samples];
   int count = 0;
   Vector2 const reach{4.0 * h, 4.0 * h};
-  bins.forEach(s.midpoint - reach, s.midpoint + reach, [&](int j) {
-    InterfaceSegment const &c = segment(j);
-    if ((c.material != material_a && c.material != material_b) || hit(j).segment < 0 || hit(j).cosine < least_cosine ||
-        count == max_fit_samples)
-      return;
-    bool const of_a = c.material == material_a;
-    if (segment(hit(j).segment).material != (of_a ? material_b : material_a) || (!of_a && c.length < shortest * h))
-      return;
-    Vector2 const apart = c.cell_centre - s.cell_centre;
-    if (Math::max(Math::fabs(dot(apart, s.lattice[0])), Math::fabs(dot(apart, s.lattice[1]))) > 3.5)
-      return; // beyond the 7 x 7 cells
-    Vector2 const offset = (1.0 / h) * (c.midpoint - s.midpoint);
-    double const weight = fitWeight(c.length / h, dot(offset, offset), hit(j).gap / h);
-    if (weight > 0.0)
-      sample[count++] = {offset, of_a ? c.normal : -c.normal, c.length / h, weight, of_a ? 0 : 1};
-  });
+  bins.forEach(s.midpoint - reach, s.midpoint + reach,
+               [&](int j)
+               {
+                 InterfaceSegment const &c = segment(j);
+                 if ((c.material != material_a && c.material != material_b) || hit(j).segment < 0 ||
+                     hit(j).cosine < least_cosine || count == max_fit_samples)
+                   return;
+                 bool const of_a = c.material == material_a;
+                 if (segment(hit(j).segment).material != (of_a ? material_b : material_a) ||
+                     (!of_a && c.length < shortest * h))
+                   return;
+                 Vector2 const apart = c.cell_centre - s.cell_centre;
+                 if (Math::max(Math::fabs(dot(apart, s.lattice[0])), Math::fabs(dot(apart, s.lattice[1]))) > 3.5)
+                   return; // beyond the 7 x 7 cells
+                 Vector2 const offset = (1.0 / h) * (c.midpoint - s.midpoint);
+                 double const weight = fitWeight(c.length / h, dot(offset, offset), hit(j).gap / h);
+                 if (weight > 0.0)
+                   sample[count++] = {offset, of_a ? c.normal : -c.normal, c.length / h, weight, of_a ? 0 : 1};
+               });
   return fitNormal(sample, omega, count, normalised(s.normal - segment(target).normal));
 }
 
@@ -106,7 +109,8 @@ struct RowBuilder
     if (!carriesRow(i))
       return none;
     InterfaceSegment const &b = segment(hit(i).segment);
-    Vector2 const n = b.material < 0 ? -b.normal : contactNormal(segment, hit, bins, shortest_segment, i, hit(i).segment);
+    Vector2 const n =
+        b.material < 0 ? -b.normal : contactNormal(segment, hit, bins, shortest_segment, i, hit(i).segment);
     return dot(segment(i).normal, n) < fit_least_cosine ? none : n;
   }
 
@@ -147,8 +151,8 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                              InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
                              BodyTable const &bodies, ConstraintOptions const &options)
 {
-  RowBuilder const builder{mesh,   pairs, dof_nodes, segments.segment, hit, bins, bodies, options.interaction,
-                           options.shortest_segment, options.exposed_face};
+  RowBuilder const builder{mesh, pairs,  dof_nodes,           segments.segment,         hit,
+                           bins, bodies, options.interaction, options.shortest_segment, options.exposed_face};
   View<double *[2]> const normal(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::normal"),
                                  segments.count);
   Kokkos::parallel_for(

@@ -35,9 +35,9 @@ BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials
 
 /// One row for every owned slave segment that carries one.
 ///
-/// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row: on
-/// segments shorter than shortest_segment, on cell faces exposed by less than exposed_face, between driven bodies, between
-/// sides that share their dof nodes, and where the segment's own normal is over 45 degrees off the fitted one.
+/// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
+/// on segments shorter than shortest_segment, on cell faces exposed by less than exposed_face, between driven bodies,
+/// between sides that share their dof nodes, and where the segment's own normal is over 45 degrees off the fitted one.
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                              InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
                              BodyTable const &bodies, ConstraintOptions const &options);

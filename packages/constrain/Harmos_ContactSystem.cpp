@@ -78,8 +78,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
 }
 
 /// Masses and node conditions of the contact dofs.
-void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                ContactSystem &system)
+void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
+                View<double *> const &dof_mass, ContactSystem &system)
 {
   View<double *> const inverse_mass("Harmos::constrain::inverse_mass", system.num_dofs);
   View<NodeCondition *> const condition("Harmos::constrain::condition", system.num_dofs);
@@ -167,29 +167,34 @@ void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyT
 }
 
 /// Row sums of |G M^-1 P G^T| over the deformable dofs: they bound its spectrum in the metric of the diagonal
-/// (Gershgorin). A row between rigid bodies has none: its own diagonal entry serves.
+/// (Gershgorin). Where node conditions leave nothing free to move, the sum without them: the impulse stays bounded. A
+/// row between rigid bodies has no deformable dofs: its own diagonal entry serves.
 KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
 {
   Vector2 const d = s.direction(row, k);
-  double sum = 0.0;
+  double sum = 0.0, unconditioned = 0.0;
   for (int c = 0; c < 8; ++c)
   {
     int const dof = s.dof(row, c);
     if (dof < 0)
       continue;
     Vector2 const u = s.condition(dof).project(d);
-    double at_dof = 0.0;
+    double at_dof = 0.0, at_free_dof = 0.0;
     for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
     {
       int const other = s.rows_of.item(e) / 8;
       double const w = Math::fabs(s.weight(other, s.rows_of.item(e) % 8));
       for (int l = 0; l < s.directions(other); ++l)
+      {
         at_dof += w * Math::fabs(dot(u, s.direction(other, l)));
+        at_free_dof += w * Math::fabs(dot(d, s.direction(other, l)));
+      }
     }
     sum += Math::fabs(s.weight(row, c)) * s.inverse_mass(dof) * at_dof;
+    unconditioned += Math::fabs(s.weight(row, c)) * s.inverse_mass(dof) * at_free_dof;
   }
-  if (sum > 0.0)
-    return sum;
+  if (unconditioned > 0.0)
+    return sum > 1e-12 * unconditioned ? sum : unconditioned;
   for (int side = 0; side < 2; ++side)
     for (int c = 0; c < 3; ++c)
     {
@@ -197,7 +202,7 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
       double const j = s.bodyJacobian(row, side, k, c);
       sum += body >= 0 ? j * j * s.body_inverse_mass(body, c) : 0.0;
     }
-  return sum > 0.0 ? sum : 1.0; // a row that nothing can move: its impulse is without effect
+  return sum;
 }
 
 } // namespace
@@ -279,9 +284,7 @@ void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &im
       double largest = 0.0;
       Kokkos::parallel_reduce(
           "Harmos::constrain::largestBodyImpulse", RangePolicy(0, s.num_own),
-          KOKKOS_LAMBDA(int i, double &l) {
-            l = Math::max(l, Math::fabs(bodyImpulse(s, impulse, s.own(i), body, c)));
-          },
+          KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, Math::fabs(bodyImpulse(s, impulse, s.own(i), body, c))); },
           Kokkos::Max<double>(largest));
       largest = exchange.max(s.num_own > 0 ? largest : 0.0);
       ReproducibleSum const sum = reproducibleSum(largest, s.num_multipliers);

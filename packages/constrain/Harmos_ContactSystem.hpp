@@ -16,27 +16,27 @@ struct ContactSystem
 {
   int num_rows = 0; // with the halo's
   int num_own = 0;
-  int num_dofs = 0;      // dof nodes that rows touch
-  int num_free = 0;      // free rigid bodies
+  int num_dofs = 0;              // dof nodes that rows touch
+  int num_free = 0;              // free rigid bodies
   long long num_multipliers = 0; // over all ranks
 
-  View<int *> own;               // num_own: rows
-  View<int *> tied;              // num_rows
-  View<double *[2]> normal;      // num_rows
-  View<int *[8]> dof;            // num_rows: compact dof of side a's corners (0..3) and b's (4..7), -1: none
-  View<double *[8]> weight;      // num_rows: signed shape functions, - for a, + for b
-  View<double *[2]> predicted;   // num_rows: b
-  View<double *[2]> diagonal;    // num_rows: row sums of |G M^-1 P G^T|, deformable part; own rows
-  View<int *[2]> free_body;      // num_rows: free body of side a, b: its compact number, -1: none
-  View<double *[4]> arm;         // num_rows: point - centre of the body of side a, of side b
+  View<int *> own;             // num_own: rows
+  View<int *> tied;            // num_rows
+  View<double *[2]> normal;    // num_rows
+  View<int *[8]> dof;          // num_rows: compact dof of side a's corners (0..3) and b's (4..7), -1: none
+  View<double *[8]> weight;    // num_rows: signed shape functions, - for a, + for b
+  View<double *[2]> predicted; // num_rows: b
+  View<double *[2]> diagonal;  // num_rows: row sums of |G M^-1 P G^T|, deformable part; own rows
+  View<int *[2]> free_body;    // num_rows: free body of side a, b: its compact number, -1: none
+  View<double *[4]> arm;       // num_rows: point - centre of the body of side a, of side b
 
-  View<int *> dof_node;          // num_dofs
-  View<double *> inverse_mass;   // num_dofs
+  View<int *> dof_node;            // num_dofs
+  View<double *> inverse_mass;     // num_dofs
   View<NodeCondition *> condition; // num_dofs
-  Rows rows_of;                  // compact dof -> 8 * row + corner, ascending
+  Rows rows_of;                    // compact dof -> 8 * row + corner, ascending
 
   View<double *[3]> body_inverse_mass; // num_free: 1/m, 1/m, 1/I
-  std::vector<int> free_number;  // num_free: number of the body
+  std::vector<int> free_number;        // num_free: number of the body
 
   KOKKOS_INLINE_FUNCTION int directions(int row) const { return 1 + tied(row); }
 

@@ -165,7 +165,8 @@ struct SegmentFinder
     return pairs.cell_kind(cell) == PureCell && pairs.material(pairs.offset(cell)) == material;
   }
 
-  KOKKOS_INLINE_FUNCTION void coverBy(int cell, int except, Edge const &edge, double tolerance, EdgeCovers &covers) const
+  KOKKOS_INLINE_FUNCTION void coverBy(int cell, int except, Edge const &edge, double tolerance,
+                                      EdgeCovers &covers) const
   {
     for (int other = pairs.offset(cell); other < pairs.offset(cell + 1); ++other)
       if (other != except)
@@ -309,8 +310,8 @@ InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs cons
         sum += count;
       },
       result.count);
-  result.segment = View<InterfaceSegment *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::segment"),
-                                            result.count);
+  result.segment = View<InterfaceSegment *>(
+      Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::segment"), result.count);
   finder.segment = result.segment;
   Kokkos::parallel_for(
       "Harmos::constrain::writeSegments", RangePolicy(0, num_visited),

@@ -16,8 +16,8 @@ struct FitSample
   Vector2 offset; // of its midpoint from the point
   Vector2 normal; // unit, from material a to material b on both sides
   double length;
-  double weight;  // fitWeight
-  int side;       // 0: of a, 1: of b
+  double weight; // fitWeight
+  int side;      // 0: of a, 1: of b
 };
 
 /// Base weight L (1 - d^2/16)_+^2 / (1 + (g/0.3)^2) of a segment at distance d with gap g. [cells]
@@ -81,8 +81,8 @@ constexpr double fit_least_cosine = 0.7; // segments (and rows) that are tilted 
 
 /// Minimise sum w omega (r^2 + 0.1 spread s^2) + W kappa gamma^2 with
 /// r = y - alpha_s - beta t - gamma (t^2 + spread) / 2, s = slope - beta - gamma t, W = sum w omega.
-KOKKOS_INLINE_FUNCTION ParabolaFit fitParabola(FitSample const *sample, double const *omega, int count, Vector2 const &n,
-                                               double kappa)
+KOKKOS_INLINE_FUNCTION ParabolaFit fitParabola(FitSample const *sample, double const *omega, int count,
+                                               Vector2 const &n, double kappa)
 {
   double A[4][4] = {};
   double b[4] = {};
@@ -126,8 +126,7 @@ KOKKOS_INLINE_FUNCTION double reweigh(FitSample const *sample, double *omega, in
     if (dot(sample[j].normal, n) >= fit_least_cosine)
     {
       FitPoint const p(sample[j], n);
-      double const r =
-          p.y - fit.alpha[sample[j].side] - fit.beta * p.t - 0.5 * fit.gamma * (p.t * p.t + p.spread);
+      double const r = p.y - fit.alpha[sample[j].side] - fit.beta * p.t - 0.5 * fit.gamma * (p.t * p.t + p.spread);
       double const s = p.slope - fit.beta - fit.gamma * p.t;
       e2 = r * r + p.spread * s * s;
     }

@@ -28,8 +28,8 @@ KOKKOS_INLINE_FUNCTION void rayBox(InterfaceSegment const &s, double reach, Vect
   }
 }
 
-KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *> const &segment, SegmentBins const &bins,
-                                      int from)
+KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *> const &segment,
+                                      SegmentBins const &bins, int from)
 {
   InterfaceSegment const &s = segment(from);
   RayHit hit{-1, 0.0, 0.0};
@@ -38,19 +38,22 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *>
   Vector2 low, high;
   rayBox(s, 0.26 * bins.size, low, high); // half the longest segment and a little
   double nearest = s.cell_size;
-  bins.forEach(low, high, [&](int to) {
-    InterfaceSegment const &target = segment(to);
-    double distance;
-    if (target.material == s.material || !crossSegment(s.midpoint, s.normal, target, distance))
-      return;
-    double const apart = Math::fabs(distance);
-    if (apart > nearest || (apart == nearest && hit.segment >= 0 && to > hit.segment))
-      return;
-    if (distance < -1e-7 * s.cell_size && (apart > deepest_overlap * s.cell_size || shareNode(mesh, s.cell, target.cell)))
-      return;
-    nearest = apart;
-    hit = {to, Math::max(distance, 0.0), -dot(s.normal, target.normal)};
-  });
+  bins.forEach(low, high,
+               [&](int to)
+               {
+                 InterfaceSegment const &target = segment(to);
+                 double distance;
+                 if (target.material == s.material || !crossSegment(s.midpoint, s.normal, target, distance))
+                   return;
+                 double const apart = Math::fabs(distance);
+                 if (apart > nearest || (apart == nearest && hit.segment >= 0 && to > hit.segment))
+                   return;
+                 if (distance < -1e-7 * s.cell_size &&
+                     (apart > deepest_overlap * s.cell_size || shareNode(mesh, s.cell, target.cell)))
+                   return;
+                 nearest = apart;
+                 hit = {to, Math::max(distance, 0.0), -dot(s.normal, target.normal)};
+               });
   return hit;
 }
 

@@ -16,15 +16,15 @@ constexpr double deepest_overlap = 0.25;
 /// What the normal ray of a segment's midpoint meets first.
 struct RayHit
 {
-  int segment;    // -1: nothing faces it within one cell size
-  double gap;     // along the ray, >= 0 [length]
-  double cosine;  // of the ray with the reversed normal of the segment that it meets
+  int segment;   // -1: nothing faces it within one cell size
+  double gap;    // along the ray, >= 0 [length]
+  double cosine; // of the ray with the reversed normal of the segment that it meets
 };
 
 /// Distance along a ray at which it crosses a facing segment, with a small tolerance at the segment's ends.
 /// \return False when it does not cross, or the segment does not face it.
-KOKKOS_INLINE_FUNCTION bool crossSegment(Vector2 const &origin, Vector2 const &direction, InterfaceSegment const &target,
-                                         double &distance)
+KOKKOS_INLINE_FUNCTION bool crossSegment(Vector2 const &origin, Vector2 const &direction,
+                                         InterfaceSegment const &target, double &distance)
 {
   double const slope = dot(direction, target.normal);
   if (slope > -facing_cosine)
@@ -36,7 +36,8 @@ KOKKOS_INLINE_FUNCTION bool crossSegment(Vector2 const &origin, Vector2 const &d
 }
 
 /// Cast the normal ray of every segment of a material to the nearest facing segment of another material or wall, within
-/// one cell size: finds a shared interface edge, two regions that meet on a face, a gap in a cell and a gap across cells alike.
+/// one cell size: finds a shared interface edge, two regions that meet on a face, a gap in a cell and a gap across
+/// cells alike.
 ///
 /// A facing surface behind the origin counts (gap 0) within round-off, and where the two cells share no node (blocks of
 /// a moving mesh that overlap slightly) down to deepest_overlap.

@@ -21,10 +21,10 @@ struct RigidBody
 {
   int material = -1;
   RigidMotion motion = RigidMotion::Fixed;
-  double mass = 0.0;       // [kg/m]
-  double inertia = 0.0;    // about the centre of mass, per depth [kg m]
+  double mass = 0.0;    // [kg/m]
+  double inertia = 0.0; // about the centre of mass, per depth [kg m]
   Vector2 centre = {0.0, 0.0};
-  double angle = 0.0;      // [rad], of the outline against its body frame
+  double angle = 0.0; // [rad], of the outline against its body frame
   Vector2 velocity = {0.0, 0.0};
   double angular_velocity = 0.0;
 

@@ -53,15 +53,37 @@ KOKKOS_INLINE_FUNCTION bool clipConvex(Polygon<CapacityIn> const &subject, Polyg
                                        Polygon<CapacityOut> &result)
 {
   bool complete = true;
-  Polygon<CapacityOut> buffer;
   result.size = 0;
   for (int i = 0; i < subject.size; ++i)
     complete = result.push(subject[i]) && complete;
-  for (int k = 0; k < window.size && result.size > 0; ++k)
+  Polygon<CapacityOut> buffer;
+  Polygon<CapacityOut> *now = &result;
+  Polygon<CapacityOut> *next = &buffer;
+  for (int k = 0; k < window.size && now->size > 0; ++k)
   {
-    complete = clip(result, edgeLine(window[k], window[window.next(k)]), buffer) && complete;
-    result = buffer;
+    Plane2 const line = edgeLine(window[k], window[window.next(k)]);
+    double nearest = line.distance((*now)[0]);
+    double farthest = nearest;
+    for (int i = 1; i < now->size; ++i)
+    {
+      double const d = line.distance((*now)[i]);
+      nearest = Math::min(nearest, d);
+      farthest = Math::max(farthest, d);
+    }
+    if (farthest <= 0.0)
+      continue;
+    if (nearest >= 0.0)
+    {
+      now->size = 0;
+      break;
+    }
+    complete = clip(*now, line, *next) && complete;
+    Polygon<CapacityOut> *const swapped = now;
+    now = next;
+    next = swapped;
   }
+  if (now != &result)
+    result = *now;
   return complete;
 }
 

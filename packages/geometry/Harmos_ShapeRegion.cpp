@@ -79,8 +79,7 @@ void ShapeRegion::appendIntersection(Term const &term, Disc const &disc, double 
     result.push_back(piece);
     return;
   }
-  double const distance = term.has_disc ? discMoments(term.polygon, term.disc)
-                                        : aboutZero(Harmos::moments<1>(term.polygon, term.polygon[0]), term.polygon[0]);
+  double const distance = term.has_disc ? norm(disc.centre - term.disc.centre) : 0.0;
   if (!term.has_disc || distance + disc.radius <= term.disc.radius)
   {
     piece.has_disc = true;

@@ -243,7 +243,7 @@ void checkSameMesh(MPI_Comm comm, std::string const &path, char const *what, Vie
 template <class ViewType>
 ViewType toView(char const *label, std::vector<double> const &value, std::size_t width)
 {
-  ViewType const view(label, value.size() / width);
+  ViewType const view(std::string(label), value.size() / width);
   auto const host = Kokkos::create_mirror_view(view);
   std::copy(value.begin(), value.end(), host.data());
   Kokkos::deep_copy(view, host);

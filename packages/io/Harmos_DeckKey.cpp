@@ -119,7 +119,7 @@ bool isName(std::string const &text)
 std::string nearestWord(std::string const &word, std::vector<std::string> const &candidates)
 {
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 2) + 1;
   for (std::string const &candidate : candidates)
   {
     std::vector<std::size_t> row(candidate.size() + 1);

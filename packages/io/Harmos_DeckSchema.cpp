@@ -33,7 +33,11 @@ template <class T>
 void add(ParameterList &list, std::string const &name, T const &value, KeyRules const &rules, std::string const &doc)
 {
   Teuchos::RCP<Teuchos::ParameterEntryValidator const> const validator = Teuchos::rcp(new DeckKeyValidator(rules));
-  list.set(name, value, doc, validator);
+  // set() also validates the default; the value of a key without one only fixes its type.
+  if (rules.presence == Presence::Default)
+    list.set(name, value, doc, validator);
+  else
+    list.setEntry(name, Teuchos::ParameterEntry(value, true, false, doc, validator));
 }
 
 KeyRules rulesOf(KeyType type, KeyRange const &range = any, std::string const &unit = "")
@@ -236,8 +240,8 @@ void addNumerics(ParameterList &list)
   add(list, "linear_viscosity", lagrange.linear_viscosity, number(between(0.0, 10.0)), "artificial, in compression");
   add(list, "quadratic_viscosity", lagrange.quadratic_viscosity, number(between(0.0, 10.0)),
       "artificial, in compression");
-  add(list, "hourglass_viscosity", lagrange.hourglass_viscosity, number(between(0.0, 1.0)),
-      "Flanagan-Belytschko coefficient");
+  add(list, "hourglass_viscosity", lagrange.hourglass_viscosity, number(between(0.0, 0.25)),
+      "Flanagan-Belytschko coefficient; 0.25 is critical at Courant 1");
   add(list, "closure", std::string("equal strain"), choice({"equal strain"}),
       "of mixed cells in `single`: all materials of a cell strain alike");
 

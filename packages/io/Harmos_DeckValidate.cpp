@@ -2,7 +2,6 @@
 #include <Harmos_DeckSchema.hpp>
 
 #include <algorithm>
-#include <set>
 
 namespace Harmos
 {

@@ -25,33 +25,62 @@ struct GatherCorners
   View<double *[num_pair_fields]> record;
   View<double *[8]> corner_force;
 
-  KOKKOS_INLINE_FUNCTION Gathered operator()(int dof) const
+  KOKKOS_FORCEINLINE_FUNCTION void add(Gathered &sum, int pair, int corner) const
+  {
+    sum.mass += record(pair, Mass);
+    sum.force[0] += corner_force(pair, 2 * corner);
+    sum.force[1] += corner_force(pair, 2 * corner + 1);
+  }
+
+  /// The pairs of one material.
+  KOKKOS_FORCEINLINE_FUNCTION Gathered ofMaterial(int node, int material) const
   {
     Gathered sum;
-    int const node = dof_nodes.node(dof);
-    int const own = dof_nodes.material(dof);
-    double mass = 0.0;
-    for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
+    if (materials(material).rigid_body >= 0)
     {
-      int const cell = mesh.node_cell.item(i) / 4;
-      int const corner = mesh.node_cell.item(i) % 4;
-      for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
-      {
-        int const material = pairs.material(pair);
-        if (own >= 0 && material != own)
-          continue;
-        if (materials(material).rigid_body >= 0)
-        {
-          sum.held = true;
-          continue;
-        }
-        mass += record(pair, Mass);
-        sum.force[0] += corner_force(pair, 2 * corner);
-        sum.force[1] += corner_force(pair, 2 * corner + 1);
-      }
+      sum.held = true;
+      return sum;
     }
-    sum.mass = 0.25 * mass;
+    int const last = mesh.node_cell.offset(node + 1);
+    for (int i = mesh.node_cell.offset(node); i < last; ++i)
+    {
+      int const item = mesh.node_cell.item(i);
+      int const end = pairs.offset((item >> 2) + 1);
+      for (int pair = pairs.offset(item >> 2); pair < end; ++pair)
+        if (pairs.material(pair) == material)
+        {
+          add(sum, pair, item & 3);
+          break;
+        }
+    }
+    sum.mass *= 0.25;
     return sum;
+  }
+
+  /// All pairs around a shared node.
+  KOKKOS_INLINE_FUNCTION Gathered ofAll(int node) const
+  {
+    Gathered sum;
+    int const last = mesh.node_cell.offset(node + 1);
+    for (int i = mesh.node_cell.offset(node); i < last; ++i)
+    {
+      int const item = mesh.node_cell.item(i);
+      int const end = pairs.offset((item >> 2) + 1);
+      for (int pair = pairs.offset(item >> 2); pair < end; ++pair)
+        if (materials(pairs.material(pair)).rigid_body >= 0)
+          sum.held = true;
+        else
+          add(sum, pair, item & 3);
+    }
+    sum.mass *= 0.25;
+    return sum;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Gathered operator()(int dof) const
+  {
+    int const material = dof_nodes.material(dof);
+    int const node = dof_nodes.node(dof);
+    return material >= 0 ? ofMaterial(node, material) : ofAll(node);
   }
 };
 

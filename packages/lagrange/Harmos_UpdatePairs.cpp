@@ -85,6 +85,7 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
   auto const half = work.half;
   auto const dof_mass = work.dof_mass;
   auto const corner_force = work.corner_force;
+  detail::StepLimits const limits(options);
   UpdateSums result;
   Kokkos::parallel_reduce(
       "Harmos::lagrange::updatePairs", RangePolicy(0, pairs.num_pairs),
@@ -97,7 +98,7 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
         if (material.rigid_body >= 0)
         {
           if (owned)
-            sums.largest.include(detail::rigidPairRate(pairs, dof_mass, options, pair, x, v), pair);
+            sums.largest.include(detail::rigidPairRate(limits, x, v), pair);
           return;
         }
         double const power = cornerPower(corner_force, pair, detail::cornerVelocities(pairs, velocity, pair), v);
@@ -108,11 +109,8 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
           return;
         double const acoustic =
             detail::acousticRate(material, options, updated.geometry, r.specific_volume, r.internal_energy);
-        double const full = updated.geometry.area / r.specific_volume;
-        sums.largest.include(detail::pairRate(pairs, dof_mass, options, pair, v,
-                                              updated.geometry.inverse_length_squared, acoustic,
-                                              options.light_node * full),
-                             pair);
+        sums.largest.include(
+            detail::pairRate(pairs, dof_mass, limits, pair, v, updated.geometry, acoustic, r.specific_volume), pair);
         bool const folded = !(updated.corner_area > 0.0);
         bool const finite = isFinite(r);
         bool const in_range = eosInRange(material, r.specific_volume);
@@ -146,6 +144,7 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
   auto const record = state.record;
   auto const velocity = state.velocity;
   auto const dof_mass = work.dof_mass;
+  detail::StepLimits const limits(options);
   detail::LargestRate result;
   Kokkos::parallel_reduce(
       "Harmos::lagrange::stableTimeStep", RangePolicy(0, pairs.num_pairs),
@@ -158,7 +157,7 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
         auto const v = detail::cornerVelocities(pairs, velocity, pair);
         if (material.rigid_body >= 0)
         {
-          largest.include(detail::rigidPairRate(pairs, dof_mass, options, pair, x, v), pair);
+          largest.include(detail::rigidPairRate(limits, x, v), pair);
           return;
         }
         auto const b = detail::meanGradient(x);
@@ -168,9 +167,7 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
                                                     Math::max(-(gradient.xx + gradient.yy) * inverse, 0.0)};
         double const sv = record(pair, SpecificVolume);
         double const acoustic = detail::acousticRate(material, options, geometry, sv, record(pair, InternalEnergy));
-        largest.include(detail::pairRate(pairs, dof_mass, options, pair, v, geometry.inverse_length_squared, acoustic,
-                                         options.light_node * (b.area / sv)),
-                        pair);
+        largest.include(detail::pairRate(pairs, dof_mass, limits, pair, v, geometry, acoustic, sv), pair);
       },
       detail::JoinReducer<detail::LargestRate>(result));
   return limitFrom(result, pairs);

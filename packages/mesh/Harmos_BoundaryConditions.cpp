@@ -30,7 +30,7 @@ struct ConditionGather
 
   KOKKOS_INLINE_FUNCTION void addNormal(Vector2 const &normal, double value)
   {
-    if (fixed || inflow || condition.count == 2)
+    if (condition.count == 2)
       return;
     if (condition.count == 1 && Math::fabs(cross(condition.normal[0], normal)) < 1e-6)
       return;

@@ -52,7 +52,7 @@ struct CellComponents
   Region polygon; // the cell; area 1
   int count;
   int material[max_components];
-  double volume[max_components];  // volume fractions
+  double volume[max_components];    // volume fractions
   Vector2 centroid[max_components]; // meaningful where centroids were asked for
 
   KOKKOS_INLINE_FUNCTION ComponentSet all() const { return (1u << count) - 1u; }

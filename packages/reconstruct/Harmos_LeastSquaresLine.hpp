@@ -35,7 +35,8 @@ KOKKOS_INLINE_FUNCTION HalfPlanePart halfPlanePart(Quadrilateral const &quad, Pl
   Vector2 first{0.0, 0.0};
   int kept = 0;
   double twice_area = 0.0;
-  auto const keep = [&](Vector2 const &x) {
+  auto const keep = [&](Vector2 const &x)
+  {
     Vector2 const r = x - origin;
     if (kept++ == 0)
       first = r;
@@ -134,7 +135,7 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(ReconstructionField const &fiel
         normal = trial;
       }
     }
-    if (!lower || Math::fabs(step) < 1e-7) // quadratic where the misfit vanishes: straight lines are at round-off
+    if (!lower || Math::fabs(step) < 1e-10)
       break;
   }
   return {normal, now.value};

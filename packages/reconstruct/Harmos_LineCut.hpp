@@ -56,7 +56,8 @@ KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2
 
   auto const next = [size](int i) { return i + 1 == size ? 0 : i + 1; };
   auto const previous = [size](int i) { return i == 0 ? size - 1 : i - 1; };
-  auto const at = [&s, &t](int from, int to, double height) {
+  auto const at = [&s, &t](int from, int to, double height)
+  {
     return s[to] <= height || s[to] <= s[from] ? t[to]
                                                : t[from] + (t[to] - t[from]) * ((height - s[from]) / (s[to] - s[from]));
   };
@@ -91,7 +92,8 @@ KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2
       left = left_next;
   }
 
-  auto const point = [&s, &polygon, level](int from, int to) {
+  auto const point = [&s, &polygon, level](int from, int to)
+  {
     double const rise = s[to] - s[from];
     double const part = rise > 0.0 ? Math::clamp((level - s[from]) / rise, 0.0, 1.0) : 0.0;
     return part == 1.0 ? polygon[to] : polygon[from] + part * (polygon[to] - polygon[from]);
@@ -170,8 +172,7 @@ KOKKOS_INLINE_FUNCTION Division divide(Region const &polygon, Vector2 const &nor
 {
   Division division;
   bool const cut_inside = inside_volume <= outside_volume;
-  LineCut const cut =
-      cut_inside ? lineCut(polygon, normal, inside_volume) : lineCut(polygon, -normal, outside_volume);
+  LineCut const cut = cut_inside ? lineCut(polygon, normal, inside_volume) : lineCut(polygon, -normal, outside_volume);
   division.inside = cut_inside ? partBelow(polygon, cut) : partAbove(polygon, cut);
   division.outside = cut_inside ? partAbove(polygon, cut) : partBelow(polygon, cut);
   division.chord_begin = cut.begin;

@@ -9,10 +9,10 @@ namespace Harmos
 
 struct MomentOfFluidLine
 {
-  Vector2 normal;        // unit, leaves the part
-  Vector2 centroid;      // of the part that is cut off [length]
-  double squared_error;  // |centroid - reference|^2 [length^2]
-  int iterations;        // cuts evaluated
+  Vector2 normal;       // unit, leaves the part
+  Vector2 centroid;     // of the part that is cut off [length]
+  double squared_error; // |centroid - reference|^2 [length^2]
+  int iterations;       // cuts evaluated
 };
 
 namespace Detail

@@ -39,20 +39,14 @@ KOKKOS_FUNCTION void givenOrder(CellComponents const &components, View<int *> co
 KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellComponents const &components,
                                         ReconstructionOptions const &options)
 {
-  if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0)
+  if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0 || components.count <= 2)
   {
     int order[max_components];
     givenOrder(components, options.order, order);
     return fixedPlan(field, components, options.method, options.sliver, order);
   }
-  if (components.count > max_exhaustive_components)
-    return greedyPlan(field, components, options.sliver);
-  if (components.count > 1)
-    return bestPlan(field, components, options.sliver);
-  RemovalPlan plan;
-  plan.count = 1;
-  plan.set(0, 0, {1.0, 0.0});
-  return plan;
+  return components.count > max_exhaustive_components ? greedyPlan(field, components, options.sliver)
+                                                      : bestPlan(field, components, options.sliver);
 }
 
 /// Cut the cell as planned, write the materials' regions, and return the largest volume error.
@@ -185,9 +179,8 @@ FilledRegions reconstruct(Mesh const &mesh, CellMaterialPairs const &pairs, Pair
   ReconstructionField const field{mesh, pairs, state.record, state.centroid};
   View<CellStatus *> const status("Harmos::reconstruct::status", regions.num_mixed_cells);
   Kokkos::parallel_for(
-      "Harmos::reconstruct::mixedCells", RangePolicy(0, regions.num_mixed_cells), KOKKOS_LAMBDA(int const i) {
-        status(i) = reconstructCell(field, options, regions, regions.mixed_cell(i));
-      });
+      "Harmos::reconstruct::mixedCells", RangePolicy(0, regions.num_mixed_cells),
+      KOKKOS_LAMBDA(int const i) { status(i) = reconstructCell(field, options, regions, regions.mixed_cell(i)); });
   addReport(mesh, regions.mixed_cell, status, report);
   return regions;
 }

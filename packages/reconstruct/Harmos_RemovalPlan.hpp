@@ -82,16 +82,15 @@ KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, C
   plan.count = components.count;
   Region polygon = components.polygon;
   ComponentSet rest = components.all();
-  for (int i = 0; i < components.count; ++i)
+  for (int i = 0; i + 1 < components.count; ++i)
   {
     int const k = order[i];
     rest &= ~(1u << k);
-    plan.set(i, k, {1.0, 0.0});
-    if (rest == 0u)
-      break;
-    plan.normal[i] = cutNormal(field, components, method, sliver, polygon, 1u << k, rest).normal;
-    polygon = divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest)).outside;
+    plan.set(i, k, cutNormal(field, components, method, sliver, polygon, 1u << k, rest).normal);
+    if (i + 2 < components.count)
+      polygon = divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest)).outside;
   }
+  plan.set(components.count - 1, order[components.count - 1], {1.0, 0.0});
   return plan;
 }
 
@@ -132,8 +131,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     ComponentSet const others = rest[depth] & ~(1u << k);
     CutNormal const cut =
         cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon[depth], 1u << k, others);
-    Division const division =
-        divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others));
+    Division const division = divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others));
     double total = error[depth] + cut.penalty + momentError(components, sliver, division.inside, k);
     int last = 0;
     while (!components.holds(others, last))
@@ -185,8 +183,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, 
           cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon, 1u << k, others);
       double const volume = components.volume[k];
       Division const division = divide(polygon, cut.normal, volume, components.volumeOf(others));
-      double const error =
-          (momentError(components, sliver, division.inside, k) + cut.penalty) / (volume * volume);
+      double const error = (momentError(components, sliver, division.inside, k) + cut.penalty) / (volume * volume);
       if (error < least - 1e-20)
       {
         least = error;

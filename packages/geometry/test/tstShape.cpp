@@ -66,7 +66,7 @@ TEST(Shape, closedForms_areaCentroidInertia)
   Shape const triangle = Shape::polygon({{0, 0}, {0, 3}, {3, 0}}); // given clockwise
   EXPECT_NEAR(4.5, triangle.area(), 1e-15);
   EXPECT_NEAR(0.0, norm(triangle.centroid() - Vector2{1.0, 1.0}), 1e-15);
-  EXPECT_NEAR(9.0, triangle.inertia(), 1e-14); // b h (b^2 + h^2) / 36
+  EXPECT_NEAR(4.5, triangle.inertia(), 1e-14); // b h (b^2 + h^2) / 36
   EXPECT_TRUE(std::isinf(Shape::halfPlane({0, 0}, {0, 1}).area()));
 }
 

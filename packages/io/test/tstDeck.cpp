@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 using namespace Harmos;
 
@@ -205,4 +207,19 @@ TEST(Deck, Json_holdsDefaultsAndQuotes)
   EXPECT_NE(json.find("\"removal_order\": []"), std::string::npos);
   EXPECT_NE(json.find("\"end_time\": 1.0"), std::string::npos);
   EXPECT_EQ(std::count(json.begin(), json.end(), '{'), std::count(json.begin(), json.end(), '}'));
+}
+
+TEST(Deck, ExampleOfTheManual_isACompleteDeck)
+{
+  std::ifstream file(HARMOS_DECK_MANUAL);
+  std::ostringstream content;
+  content << file.rdbuf();
+  std::string const text = content.str();
+  std::string const fence = "```yaml\n";
+  std::size_t const from = text.find(fence);
+  ASSERT_NE(from, std::string::npos);
+  std::size_t const begin = from + fence.size();
+  Deck const deck = readDeckText(text.substr(begin, text.find("```", begin) - begin), "deck.md");
+  EXPECT_EQ(deck.bodies.size(), 3u);
+  EXPECT_EQ(deck.num_rigid_bodies, 2);
 }

@@ -68,30 +68,42 @@ KOKKOS_INLINE_FUNCTION double largestHeavySpeedSquared(CellMaterialPairs const &
   return largest;
 }
 
-/// 1 / dt of a pair: the larger of acoustic / courant and the travel's |v| / (largest_travel l).
-///
-/// A full dof node has mass area / sv; light ones are left out of the travel. Rigid pairs: acoustic = 0, least_mass =
-/// 0.
-KOKKOS_INLINE_FUNCTION double pairRate(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
-                                       LagrangeOptions const &options, int pair, Corners<double> const &v,
-                                       double inverse_length_squared, double acoustic, double least_mass)
+/// Options of the time step, in the form that the kernels multiply by.
+struct StepLimits
 {
-  double const rate = acoustic / options.courant;
-  double const scale = inverse_length_squared / (options.largest_travel * options.largest_travel);
+  double inverse_courant;
+  double inverse_travel_squared;
+  double light_node;
+
+  explicit StepLimits(LagrangeOptions const &options)
+      : inverse_courant(1.0 / options.courant),
+        inverse_travel_squared(1.0 / (options.largest_travel * options.largest_travel)), light_node(options.light_node)
+  {
+  }
+};
+
+/// 1 / dt of a deformable pair: the larger of acoustic / courant and the travel's |v| / (largest_travel l).
+///
+/// A full dof node has mass area / sv; light ones are left out of the travel.
+KOKKOS_INLINE_FUNCTION double pairRate(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
+                                       StepLimits const &limits, int pair, Corners<double> const &v,
+                                       StepGeometry<double> const &geometry, double acoustic, double specific_volume)
+{
+  double const rate = acoustic * limits.inverse_courant;
+  double const scale = geometry.inverse_length_squared * limits.inverse_travel_squared;
   if (largestSpeedSquared(v) * scale <= rate * rate)
     return rate;
-  double const speed2 =
-      least_mass > 0.0 ? largestHeavySpeedSquared(pairs, dof_mass, pair, v, least_mass) : largestSpeedSquared(v);
-  return Math::max(rate, Math::sqrt(speed2 * scale));
+  double const least_mass = limits.light_node * geometry.area / specific_volume;
+  return Math::max(rate, Math::sqrt(largestHeavySpeedSquared(pairs, dof_mass, pair, v, least_mass) * scale));
 }
 
 /// 1 / dt of a rigid pair: its travel through the unmoved cell.
-KOKKOS_INLINE_FUNCTION double rigidPairRate(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
-                                            LagrangeOptions const &options, int pair, Corners<double> const &x,
+KOKKOS_INLINE_FUNCTION double rigidPairRate(StepLimits const &limits, Corners<double> const &x,
                                             Corners<double> const &v)
 {
   MeanGradient<double> const b = meanGradient(x);
-  return pairRate(pairs, dof_mass, options, pair, v, longestMidlineSquared(b) / (b.area * b.area), 0.0, 0.0);
+  double const scale = limits.inverse_travel_squared * longestMidlineSquared(b) / (b.area * b.area);
+  return Math::sqrt(largestSpeedSquared(v) * scale);
 }
 
 } // namespace detail

@@ -23,8 +23,8 @@ struct PairRecord
 
 /// Corner forces on the nodes (equations: computeCornerForces).
 template <class T>
-KOKKOS_INLINE_FUNCTION Corners<T> pairForces(Material const &material, LagrangeOptions const &options,
-                                             PairRecord<T> const &pair, Corners<T> const &x, Corners<T> const &v)
+KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, LagrangeOptions const &options,
+                                                  PairRecord<T> const &pair, Corners<T> const &x, Corners<T> const &v)
 {
   MeanGradient<T> const b = meanGradient(x);
   T const inverse_area = 1.0 / b.area;
@@ -71,8 +71,8 @@ struct StepGeometry
 /// while (omega dt)^2 + 2 d <= 4, omega = 2 c / l. The linear term is counted in expansion too: what oscillates
 /// compresses next.
 template <class T>
-KOKKOS_INLINE_FUNCTION T acousticRate(Material const &material, LagrangeOptions const &options,
-                                      StepGeometry<T> const &cell, T specific_volume, T internal_energy)
+KOKKOS_FORCEINLINE_FUNCTION T acousticRate(Material const &material, LagrangeOptions const &options,
+                                           StepGeometry<T> const &cell, T specific_volume, T internal_energy)
 {
   EosState<T> const eos = equationOfState(material, specific_volume, internal_energy);
   T const c2 = longitudinalSoundSpeedSquared(material, eos.sound_speed_squared, specific_volume);
@@ -92,8 +92,8 @@ struct UpdatedPair
 
 /// The new record (equations: updatePairs). x at t^n, v_half; `power` = - sum f_I . v_mean_I.
 template <class T>
-KOKKOS_INLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, PairRecord<T> const &pair,
-                                                 Corners<T> const &x, Corners<T> const &v, T power, double dt)
+KOKKOS_FORCEINLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, PairRecord<T> const &pair,
+                                                      Corners<T> const &x, Corners<T> const &v, T power, double dt)
 {
   Corners<T> const x_np1 = moved(x, dt, v);
   MeanGradient<T> const b_n = meanGradient(x);
@@ -108,15 +108,18 @@ KOKKOS_INLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, PairR
   T const mid_x13 = 0.5 * ((x.x[1] - x.x[3]) + (x_np1.x[1] - x_np1.x[3]));
   b.area = mid_x02 * b.x0 + mid_x13 * b.x1;
 
-  T const inverse_both = 1.0 / (b_n.area * b.area);
-  T const step = dt * (inverse_both * b_n.area); // dt / mid-step area
+  T const both = b_n.area * b.area;
+  T const inverse = 1.0 / (both * pair.mass); // one division for three
+  T const inverse_both = inverse * pair.mass;
+  T const inverse_area = inverse_both * b_n.area; // of mid-step
+  T const step = dt * inverse_area;
   ScaledVelocityGradient<T> const gradient = velocityGradient(b, v);
 
   UpdatedPair<T> result;
   PairRecord<T> &updated = result.record;
   updated.mass = pair.mass;
   updated.specific_volume = pair.specific_volume * (b_np1.area * (inverse_both * b.area));
-  updated.internal_energy = pair.internal_energy + dt * power / pair.mass;
+  updated.internal_energy = pair.internal_energy + dt * power * (inverse * both);
   Deviator<T> const turned = rotate(pair.deviator, T((0.5 * step) * (gradient.yx - gradient.xy)));
   Deviator<T> const trial = elasticTrial(material, turned, T(step * gradient.xx), T(step * gradient.yy),
                                          T((0.5 * step) * (gradient.xy + gradient.yx)));
@@ -126,7 +129,7 @@ KOKKOS_INLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, PairR
 
   result.geometry.area = b_np1.area;
   result.geometry.inverse_length_squared = longestMidlineSquared(b_np1) / (b_np1.area * b_np1.area);
-  result.geometry.compression = Math::max(T(-(gradient.xx + gradient.yy)), T(0.0)) * (inverse_both * b_n.area);
+  result.geometry.compression = Math::max(T(-(gradient.xx + gradient.yy)), T(0.0)) * inverse_area;
   result.corner_area = leastCornerArea(x_np1);
   return result;
 }

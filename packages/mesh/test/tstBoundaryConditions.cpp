@@ -97,6 +97,14 @@ TEST(BuildBoundaryConditions, fixedInflowAndSlipMeet_fixedGoesFirstThenInflow)
   EXPECT_EQ(norm(c[8].apply({9.0, 9.0})), 0.0);
 }
 
+TEST(BuildBoundaryConditions, fixedFaceBeforeInflowFace_fixedStillGoesFirst)
+{
+  auto const c = conditionsOf(fourCells(), {ofKind(BoundaryKind::Inflow, {5.0, 1.0}), ofKind(BoundaryKind::SlipWall),
+                                            ofKind(BoundaryKind::Fixed), ofKind(BoundaryKind::SlipWall)});
+  EXPECT_EQ(norm(c[0].apply({9.0, 9.0})), 0.0);
+  EXPECT_EQ(c[6].apply({9.0, 9.0})[0], 5.0);
+}
+
 TEST(BuildBoundaryConditions, prescribedVelocity_onlyItsNormalPartIsUsed)
 {
   auto const c =

@@ -14,28 +14,31 @@ namespace
 Scene stripes(bool with_void, bool corners)
 {
   Mesh const mesh = makeMesh(128, 128, 1.0, 0.05);
-  return paint(mesh, [with_void, corners](int, Quadrilateral const &quad) {
-    double volume[2] = {0.0, 0.0};
-    Vector2 first[2] = {{0.0, 0.0}, {0.0, 0.0}};
-    for (int stripe = -20; stripe < 60; ++stripe)
-    {
-      Plane2 upper = halfPlane(25.0, {4.3 * (stripe + 1), 0.0}), lower = halfPlane(205.0, {4.3 * stripe, 0.0});
-      Body body{upper, lower};
-      if (corners && stripe % 2 == 0)
-        body.push_back(halfPlane(115.0, {0.0, 60.0 + 5.3 * (stripe % 7)}));
-      Region const part = intersection(quad, body);
-      Moments<1> const m = moments<1>(part, quad[0]);
-      int const which = stripe & 1;
-      volume[which] += m.volume();
-      for (int d = 0; d < 2; ++d)
-        first[which][d] += m.first(d);
-    }
-    std::vector<Fill> fills;
-    for (int k = 0; k < (with_void ? 1 : 2); ++k)
-      if (volume[k] > 0.0)
-        fills.push_back({k, volume[k], quad[0] + (1.0 / volume[k]) * first[k]});
-    return fills;
-  });
+  return paint(
+      mesh,
+      [with_void, corners](int, Quadrilateral const &quad)
+      {
+        double volume[2] = {0.0, 0.0};
+        Vector2 first[2] = {{0.0, 0.0}, {0.0, 0.0}};
+        for (int stripe = -20; stripe < 60; ++stripe)
+        {
+          Plane2 upper = halfPlane(25.0, {4.3 * (stripe + 1), 0.0}), lower = halfPlane(205.0, {4.3 * stripe, 0.0});
+          Body body{upper, lower};
+          if (corners && stripe % 2 == 0)
+            body.push_back(halfPlane(115.0, {0.0, 60.0 + 5.3 * (stripe % 7)}));
+          Region const part = intersection(quad, body);
+          Moments<1> const m = moments<1>(part, quad[0]);
+          int const which = stripe & 1;
+          volume[which] += m.volume();
+          for (int d = 0; d < 2; ++d)
+            first[which][d] += m.first(d);
+        }
+        std::vector<Fill> fills;
+        for (int k = 0; k < (with_void ? 1 : 2); ++k)
+          if (volume[k] > 0.0)
+            fills.push_back({k, volume[k], quad[0] + (1.0 / volume[k]) * first[k]});
+        return fills;
+      });
 }
 
 void measure(benchmark::State &state, Scene const &scene, ReconstructionMethod method, double sliver)
@@ -52,7 +55,10 @@ void measure(benchmark::State &state, Scene const &scene, ReconstructionMethod m
       benchmark::Counter(static_cast<double>(mixed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void youngs(benchmark::State &state) { measure(state, stripes(false, false), ReconstructionMethod::Youngs, 1e-3); }
+void youngs(benchmark::State &state)
+{
+  measure(state, stripes(false, false), ReconstructionMethod::Youngs, 1e-3);
+}
 void momentOfFluidTwoMaterials(benchmark::State &state)
 {
   measure(state, stripes(false, false), ReconstructionMethod::MomentOfFluid, 1e-3);

@@ -192,7 +192,8 @@ inline Region intersection(Polygon<Capacity> const &polygon, Body const &body)
 /// Disjoint bodies; body m is material m.
 inline CellFills bodies(std::vector<Body> const &all)
 {
-  return [all](int, Quadrilateral const &quad) {
+  return [all](int, Quadrilateral const &quad)
+  {
     std::vector<Fill> fills;
     for (std::size_t m = 0; m < all.size(); ++m)
     {

@@ -34,7 +34,10 @@ Region randomConvexPolygon(std::mt19937 &random, int size)
   return polygon;
 }
 
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+Vector2 direction(double angle)
+{
+  return {std::cos(angle), std::sin(angle)};
+}
 
 Region unitSquare()
 {

@@ -38,7 +38,10 @@ Result run(Scene const &scene, ReconstructionMethod method, double sliver = 1e-3
   return result;
 }
 
-Plane2 opposite(Plane2 const &plane) { return {-plane.normal, -plane.offset}; }
+Plane2 opposite(Plane2 const &plane)
+{
+  return {-plane.normal, -plane.offset};
+}
 
 Vector2 randomPoint(std::mt19937 &random, double size)
 {
@@ -131,8 +134,8 @@ TEST(Reconstruct, fixedOrder_isExactWhenRightAndWrongWhenWrong)
   EXPECT_GT(misplacedVolume(scene, run(scene, method, 0.0, {void_material}).regions, all), 1e-3);
 }
 
-// Two bodies with a thin void between them: the void has no gradient of its own, the bodies have.
-TEST(Reconstruct, thinVoidBetweenTwoBodies_liesBetweenThem)
+// Two bodies with a thin void or a thin foil (material 0) between them: it has no gradient of its own, the bodies have.
+TEST(Reconstruct, thinVoidOrFoilBetweenTwoBodies_liesBetweenThem)
 {
   for (double const gap : {1e-3, 1e-4, 1e-6, 1e-9})
     for (double const angle : {0.0, 15.0, 30.0, 45.0, 70.0})
@@ -140,11 +143,16 @@ TEST(Reconstruct, thinVoidBetweenTwoBodies_liesBetweenThem)
       Mesh const mesh = makeMesh(8, 8, 1.0);
       Plane2 const line = halfPlane(angle, {4.2, 4.3});
       Plane2 const other{-line.normal, -line.offset - gap};
-      std::vector<Body> const all{{line}, {other}};
-      Scene const scene = paint(mesh, bodies(all));
-      Result const result = run(scene, ReconstructionMethod::MomentOfFluid);
-      EXPECT_EQ(result.report.failures, 0);
-      EXPECT_LT(misplacedVolume(scene, result.regions, all), 1e-3 * gap) << "gap " << gap << " angle " << angle;
+      for (bool const foil : {false, true})
+      {
+        std::vector<Body> all{{line}, {other}};
+        if (foil)
+          all = {{opposite(line), opposite(other)}, {line}, {other}};
+        Scene const scene = paint(mesh, bodies(all));
+        Result const result = run(scene, ReconstructionMethod::MomentOfFluid);
+        EXPECT_EQ(result.report.failures, 0);
+        EXPECT_LT(misplacedVolume(scene, result.regions, all), 1e-3 * gap) << "gap " << gap << " angle " << angle;
+      }
     }
 }
 
@@ -170,10 +178,12 @@ TEST(Reconstruct, stripOfCells_everyMethodFindsTheUprightInterface)
 TEST(Reconstruct, bothGradients_areExactForLinearFractionsOnShakenQuads)
 {
   Mesh const mesh = makeMesh(7, 7, 0.5, 0.2);
-  Scene const scene = paint(mesh, [](int, Quadrilateral const &quad) {
-    Vector2 const x = quadrilateralCentroid(quad);
-    return std::vector<Fill>{{0, (0.2 + 0.1 * x[0] + 0.05 * x[1]) * area(quad), x}};
-  });
+  Scene const scene = paint(mesh,
+                            [](int, Quadrilateral const &quad)
+                            {
+                              Vector2 const x = quadrilateralCentroid(quad);
+                              return std::vector<Fill>{{0, (0.2 + 0.1 * x[0] + 0.05 * x[1]) * area(quad), x}};
+                            });
   ReconstructionField const field{scene.mesh, scene.pairs, scene.state.record, scene.state.centroid};
   View<double *[4]> const gradient("gradient", mesh.num_cells);
   Kokkos::parallel_for(
@@ -228,12 +238,14 @@ TEST(Reconstruct, sevenParallelLayersInOneCell_areExactAndCountedAsGreedy)
 TEST(Reconstruct, moreThanTwelveComponents_areReportedWithTheCell)
 {
   Mesh const mesh = makeMesh(3, 3, 1.0);
-  Scene const scene = paint(mesh, [](int cell, Quadrilateral const &quad) {
-    std::vector<Fill> fills;
-    for (int m = 0; m < (cell == 4 ? 12 : 1); ++m)
-      fills.push_back({m, (cell == 4 ? 0.05 : 1.0) * area(quad), {1.0 + 0.05 * m, 1.5}});
-    return fills;
-  });
+  Scene const scene = paint(mesh,
+                            [](int cell, Quadrilateral const &quad)
+                            {
+                              std::vector<Fill> fills;
+                              for (int m = 0; m < (cell == 4 ? 12 : 1); ++m)
+                                fills.push_back({m, (cell == 4 ? 0.05 : 1.0) * area(quad), {1.0 + 0.05 * m, 1.5}});
+                              return fills;
+                            });
   Result const result = run(scene, ReconstructionMethod::MomentOfFluid);
   EXPECT_EQ(result.report.failures, 1);
   EXPECT_EQ(result.report.first_failed_cell, 4);
@@ -245,7 +257,8 @@ namespace
 /// Up to five materials, and void in every other cell, with fractions down to 1e-12 and any centroids.
 CellFills randomFills(std::mt19937 &random)
 {
-  return [&random](int cell, Quadrilateral const &quad) {
+  return [&random](int cell, Quadrilateral const &quad)
+  {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     int const count = cell % 16 < 13 ? 1 + cell % 16 % 3 : 3 + cell % 16 % 3; // 13, 14, 15: 4, 5, 3 materials
     double part[6], sum = 0.0;

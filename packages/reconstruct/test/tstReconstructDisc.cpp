@@ -61,13 +61,15 @@ Moments<1> discMoments(Polygon<Capacity> const &polygon, Disc const &disc)
 double symmetricDifference(int n, Vector2 const &centre, ReconstructionMethod method, double sliver)
 {
   Disc const disc{centre, 0.3};
-  Scene const scene = paint(makeMesh(n, n, 1.0 / n), [&disc](int, Quadrilateral const &quad) {
-    Moments<1> const m = discMoments(quad, disc);
-    std::vector<Fill> fills;
-    if (m.volume() > 1e-13 * area(quad))
-      fills.push_back({0, m.volume(), disc.centre + m.centroid()});
-    return fills;
-  });
+  Scene const scene = paint(makeMesh(n, n, 1.0 / n),
+                            [&disc](int, Quadrilateral const &quad)
+                            {
+                              Moments<1> const m = discMoments(quad, disc);
+                              std::vector<Fill> fills;
+                              if (m.volume() > 1e-13 * area(quad))
+                                fills.push_back({0, m.volume(), disc.centre + m.centroid()});
+                              return fills;
+                            });
   ReconstructionOptions options;
   options.method = method;
   options.sliver = sliver;
@@ -109,8 +111,54 @@ TEST(ReconstructDisc, symmetricDifference_convergesAtSecondOrder)
       EXPECT_LT(mof, 6.2e-4 * 32 * 32 / (n * n) * (n == 64 ? 1.25 : 1.1));
       EXPECT_LT(fitted, 1.2e-3 * 32 * 32 / (n * n) * 1.1);
       if (last > 0.0)
+      {
         EXPECT_LT(mof, 0.4 * last);
+      }
       last = mof;
     }
+  }
+}
+
+// A disc in a socket with a thin void between: the void must lie between the bodies in every three-component cell.
+TEST(ReconstructDisc, thinVoidBetweenDiscAndSocket_bodiesStayOnTheirSides)
+{
+  int const n = 32;
+  double const h = 1.0 / n;
+  std::printf("  gap / h  largest part of a cell in the wrong body\n");
+  for (double const gap : {1e-12, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.3})
+  {
+    Disc const disc{{0.5123, 0.4871}, 0.3}, socket{disc.centre, disc.radius + gap * h};
+    Scene const scene = paint(makeMesh(n, n, h),
+                              [&](int, Quadrilateral const &quad)
+                              {
+                                Moments<1> const inner = discMoments(quad, disc), outer = discMoments(quad, socket);
+                                Moments<1> rest = moments<1>(quad, disc.centre);
+                                rest -= outer;
+                                std::vector<Fill> fills;
+                                if (inner.volume() > 1e-13 * area(quad))
+                                  fills.push_back({0, inner.volume(), disc.centre + inner.centroid()});
+                                if (rest.volume() > 1e-13 * area(quad))
+                                  fills.push_back({1, rest.volume(), disc.centre + rest.centroid()});
+                                return fills;
+                              });
+    ReconstructionReport report;
+    FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, {}, report);
+    EXPECT_EQ(report.failures, 0);
+    auto const mixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.mixed_cell);
+    auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
+    auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
+    auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.material);
+    double worst = 0.0;
+    int r = 0; // regions follow the pairs of the mixed cells
+    for (int i = 0; i < regions.num_mixed_cells; ++i)
+      for (int pair = offset(mixed(i)); pair < offset(mixed(i) + 1); ++pair, ++r)
+      {
+        double const in_socket = discMoments(polygon(r), socket).volume();
+        double const in_disc = discMoments(polygon(r), disc).volume();
+        double const wrong = material(pair) == 0 ? area(polygon(r)) - in_socket : in_disc;
+        worst = std::max(worst, wrong / (h * h));
+      }
+    std::printf("  %7.0e  %.2e\n", gap, worst);
+    EXPECT_LT(worst, 6e-3) << "gap " << gap;
   }
 }

@@ -86,8 +86,8 @@ KOKKOS_INLINE_FUNCTION double boundaryDistance(Input const &in, int cell, int fa
   return -cross(edge, point - a);
 }
 
-/// Whether a point that left the domain near `cell` did so through an outflow face: the boundary face that it is
-/// farthest beyond decides.
+/// Whether a point that left the domain near `cell` did so through an outflow face and not a contact wall: the boundary
+/// face that it is farthest beyond decides.
 KOKKOS_INLINE_FUNCTION bool leftThroughOutflow(Input const &in, int cell, Vector2 const &point)
 {
   double farthest = 0.0;
@@ -113,6 +113,7 @@ struct ResidueFunctor
 {
   Input in;
   Classes classes;
+  StageState stage;
   Donors donors;
   Overlays overlays;
   Acceptors acceptors;
@@ -124,7 +125,7 @@ struct ResidueFunctor
   {
     double rest[num_stage_fields];
     double const volume = donors.shape(donor, 0);
-    double const mass = massOf(donor);
+    double const mass = stage.record(donors.pair(donor), Mass);
     for (int f = 0; f < num_stage_fields; ++f)
       rest[f] = (byVolume(f) ? volume : mass) * donors.polynomial(donor, f, 0);
     rest[0] = mass;
@@ -158,11 +159,6 @@ struct ResidueFunctor
     double const scale = rest_volume != 0.0 ? 1.0 / rest_volume : 0.0;
     outside = {donors.shape(donor, 1) + scale * first[0], donors.shape(donor, 2) + scale * first[1]};
     return rest_volume;
-  }
-
-  KOKKOS_INLINE_FUNCTION double massOf(int donor) const
-  {
-    return donors.polynomial(donor, 0, 0) * donors.shape(donor, 0);
   }
 
   KOKKOS_INLINE_FUNCTION void bookOutflow(int index, int donor) const
@@ -202,7 +198,8 @@ struct ResidueFunctor
       Vector2 outside;
       double const lost = subtractOverlays(donor, cell, largest_slot, outside);
       double const tolerance = 1e-10 * donors.shape(donor, 0) + 1e-14 * in.mesh.cell_area(cell);
-      if ((open & OutflowBit) != 0 && lost > 1e-13 * in.mesh.cell_area(cell) && leftThroughOutflow(in, cell, outside))
+      bool const left = (open & OutflowBit) != 0 && lost > 1e-13 * in.mesh.cell_area(cell);
+      if (left && ((open & ContactBit) == 0 || leftThroughOutflow(in, cell, outside)))
       {
         if (owned)
           bookOutflow(index, donor);
@@ -256,13 +253,13 @@ Acceptors findCandidates(Input const &in, Classes const &classes, Donors const &
   return acceptors;
 }
 
-Residues findResidues(Input const &in, Classes const &classes, Donors const &donors, Overlays const &overlays,
+Residues findResidues(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors, Overlays const &overlays,
                       Acceptors const &acceptors, Bookings const &bookings)
 {
   Residues const residues{scratch<int *>("residueTarget", donors.num),
                           scratch<double *[num_stage_fields]>("residue", donors.num)};
   Kokkos::parallel_for("Harmos::remap::findResidues", RangePolicy(0, classes.num_interface),
-                       ResidueFunctor{in, classes, donors, overlays, acceptors, residues, bookings});
+                       ResidueFunctor{in, classes, stage, donors, overlays, acceptors, residues, bookings});
   return residues;
 }
 

@@ -40,7 +40,7 @@ struct PolynomialFunctor
     for (int f = 0; f < num_pair_fields; ++f)
       q[f] = stage.record(pair, f);
     q[DensityField] = stage.record(pair, Mass) / volume;
-    q[KineticField] = stage.kinetic(pair);
+    q[KineticField] = stage.kineticEnergy(in.pairs, pair);
     for (int k = 0; k < 4; ++k)
     {
       int const dof = in.pairs.dof_node(pair, (k + rotation) % 4);

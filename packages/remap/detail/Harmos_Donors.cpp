@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_Donors.hpp>
 
+#include <Harmos_Moments.hpp>
+
 namespace Harmos
 {
 namespace RemapDetail

@@ -15,8 +15,13 @@ namespace RemapDetail
 struct StageState
 {
   View<double *[num_pair_fields]> record; // num_pairs
-  View<double *> kinetic;                 // num_pairs: kinetic energy per mass
+  View<double *> kinetic;                 // num_pairs: kinetic energy per mass; extent 0: not carried through stage 1
   View<double *[2]> velocity;             // num_dof_nodes
+
+  KOKKOS_INLINE_FUNCTION double kineticEnergy(CellMaterialPairs const &pairs, int pair) const
+  {
+    return kinetic.extent(0) > 0 ? kinetic(pair) : cornerKineticEnergy(pairs, velocity, pair);
+  }
 };
 
 /// Fields of stage 2: StageField and PairField in one numbering, then the velocities of the four corners.

@@ -4,6 +4,9 @@
 
 #include <detail/Harmos_Donors.hpp>
 
+#include <Harmos_Clip.hpp>
+#include <Harmos_Moments.hpp>
+
 namespace Harmos
 {
 namespace RemapDetail

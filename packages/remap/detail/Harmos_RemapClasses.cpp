@@ -97,6 +97,17 @@ void classifyNodes(Input const &in, Classes const &classes)
       });
 }
 
+/// Rigid pairs are built anew wherever a body was or is, with or without deformable material around.
+KOKKOS_INLINE_FUNCTION bool holdsRigid(Input const &in, int cell)
+{
+  if (in.rigid.offset.extent(0) > 0 && in.rigid.offset(cell) < in.rigid.offset(cell + 1))
+    return true;
+  for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
+    if (in.isRigid(in.pairs.material(pair)))
+      return true;
+  return false;
+}
+
 /// Ascending list of the cells whose mark is set; index(cell) is the place in it or -1.
 int listCells(View<int *> const &index, View<int *> &list)
 {
@@ -137,7 +148,8 @@ Classes classify(Input const &in)
   Classes const known = classes;
   Kokkos::parallel_for(
       "Harmos::remap::markCells", RangePolicy(0, cells), KOKKOS_LAMBDA(int cell) {
-        int swept = 0, interface = 0;
+        int swept = 0;
+        int interface = holdsRigid(in, cell) ? 1 : 0;
         for (int k = 0; k < 4; ++k)
         {
           int const kind = known.node_return(in.mesh.cell_node(cell, k));

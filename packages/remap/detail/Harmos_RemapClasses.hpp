@@ -32,7 +32,7 @@ struct Classes
   View<int *> pure_material;   // num_cells: material of a pure deformable cell, -1: none such, -2: no deformable at all
   View<int *> open;            // num_cells, OpenBits of its faces; extent 0: the boundaries are slip and fixed walls
   View<int *> swept_cell;      // cells of stage 1: pure with a swept node, ascending
-  View<int *> interface_cell;  // cells of stage 2: touch an interface node, ascending
+  View<int *> interface_cell;  // cells of stage 2: touch an interface node or hold a rigid body, ascending
   View<int *> interface_index; // num_cells: position in interface_cell, or -1
   int num_swept = 0;
   int num_interface = 0;

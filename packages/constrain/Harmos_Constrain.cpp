@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_Constrain.hpp>
+#include <Harmos_ConstraintSums.hpp>
+
+#include <stdexcept>
+
+namespace Harmos
+{
+
+namespace
+{
+
+/// half = v* + impulses / mass; rigid dof nodes move with their body.
+void writeHalf(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &predicted,
+               BodyTable const &bodies, View<double *[2]> const &half)
+{
+  Kokkos::parallel_for(
+      "Harmos::constrain::writeHalf", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+        int const material = dof_nodes.material(dof);
+        int const body = material >= 0 ? bodies.of_material(material) : -1;
+        Vector2 v{predicted(dof, 0), predicted(dof, 1)};
+        if (body >= 0)
+        {
+          int const node = dof_nodes.node(dof);
+          v = bodies.body(body).velocityAt({mesh.node_position(node, 0), mesh.node_position(node, 1)});
+        }
+        half(dof, 0) = v[0];
+        half(dof, 1) = v[1];
+      });
+}
+
+void addChange(ContactSystem const &system, View<double *[2]> const &change, View<double *[2]> const &half)
+{
+  View<int *> const dof_node = system.dof_node;
+  Kokkos::parallel_for(
+      "Harmos::constrain::addChange", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
+        half(dof_node(i), 0) += change(i, 0);
+        half(dof_node(i), 1) += change(i, 1);
+      });
+}
+
+/// Halo dof nodes take their velocities from the owners of the cells around: corner velocities of pairs travel.
+void shareHalf(Mesh const &mesh, CellMaterialPairs const &pairs, Exchange const &exchange,
+               View<double *[2]> const &half)
+{
+  if (exchange.size() == 1)
+    return;
+  View<int *> offset("Harmos::constrain::half_offset", mesh.num_cells + 1);
+  Kokkos::deep_copy(offset, pairs.offset);
+  View<double **> item("Harmos::constrain::half_item", pairs.num_pairs, 8);
+  View<double **> const packed = item;
+  Kokkos::parallel_for(
+      "Harmos::constrain::packHalf", RangePolicy(0, pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
+        for (int k = 0; k < 8; ++k)
+          packed(pair, k) = half(pairs.dof_node(pair, k / 2), k % 2);
+      });
+  exchange.exchangeRows(offset, item, 3);
+  View<int *> const first = offset;
+  View<double **> const received = item;
+  // Cells that share a dof node write the same bits: each owner has all rows at its own nodes.
+  Kokkos::parallel_for(
+      "Harmos::constrain::unpackHalf", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
+        int const depth = mesh.cell_depth(cell);
+        if (depth < 1 || depth > 3)
+          return;
+        for (int i = 0; i < first(cell + 1) - first(cell); ++i)
+          for (int k = 0; k < 8; ++k)
+            half(pairs.dof_node(pairs.offset(cell) + i, k / 2), k % 2) = received(first(cell) + i, k);
+      });
+}
+
+void moveFreeBodies(ContactSystem const &system, View<double *[3]> const &body_change, std::vector<RigidBody> &bodies)
+{
+  auto const change = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), body_change);
+  for (int f = 0; f < system.num_free; ++f)
+  {
+    RigidBody &body = bodies[static_cast<std::size_t>(system.free_number[static_cast<std::size_t>(f)])];
+    body.velocity += Vector2{change(f, 0), change(f, 1)};
+    body.angular_velocity += change(f, 2);
+  }
+}
+
+std::vector<RigidBody> meanBodies(std::vector<RigidBody> const &bodies_n, std::vector<RigidBody> const &bodies)
+{
+  std::vector<RigidBody> mean = bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+  {
+    mean[b].velocity = 0.5 * (bodies_n[b].velocity + bodies[b].velocity);
+    mean[b].angular_velocity = 0.5 * (bodies_n[b].angular_velocity + bodies[b].angular_velocity);
+  }
+  return mean;
+}
+
+ContactRows findRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                     FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
+                     ConstraintOptions const &options, Exchange const &exchange)
+{
+  InterfaceSegments const segments = findInterfaceSegments(mesh, pairs, regions, conditions);
+  SegmentBins const bins = binSegments(segments, exchange);
+  View<RayHit *> const hit = castRays(mesh, segments, bins);
+  ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, table, options);
+  exchangeContactRows(mesh, pairs, table, exchange, rows);
+  return rows;
+}
+
+} // namespace
+
+ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                     NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
+                                     BoundaryConditions const &conditions, View<double *> const &dof_mass,
+                                     View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
+                                     View<double *[2]> const &half, std::vector<RigidBody> const &bodies_n,
+                                     std::vector<RigidBody> &bodies, double dt, ConstraintOptions const &options,
+                                     Exchange const &exchange)
+{
+  ScopedRegion const region("Harmos::constrain");
+  if (!(dt > 0.0))
+    throw std::runtime_error("constrainVelocities: dt = " + std::to_string(dt) + ", must be > 0");
+  int const num_materials = static_cast<int>(options.interaction.extent(0));
+  ConstraintReport report;
+  report.body_impulse.assign(bodies.size(), Vector2{0.0, 0.0});
+  report.body_torque.assign(bodies.size(), 0.0);
+  std::size_t const width = static_cast<std::size_t>(num_materials) + 1;
+  report.pair_force.assign(width * width, PairForce());
+
+  BodyTable const table = buildBodyTable(bodies, num_materials);
+  ContactRows const rows = findRows(mesh, pairs, dof_nodes, regions, conditions, table, options, exchange);
+  ContactSystem const system =
+      buildContactSystem(rows, dof_nodes, conditions, dof_mass, predicted, table, bodies, dt, exchange);
+  report.rows = system.num_multipliers;
+  if (system.num_multipliers == 0)
+  {
+    writeHalf(mesh, dof_nodes, predicted, table, half);
+    shareHalf(mesh, pairs, exchange, half);
+    return report;
+  }
+  MultiplierSolution const solution = solveMultipliers(system, rows, dt, options, exchange);
+  report.iterations = solution.iterations;
+  report.residual = solution.residual;
+  report.converged = solution.converged;
+  moveFreeBodies(system, solution.body_change, bodies);
+  writeHalf(mesh, dof_nodes, predicted, buildBodyTable(bodies, num_materials), half);
+  addChange(system, solution.change, half);
+  shareHalf(mesh, pairs, exchange, half);
+  sumConstraint(system, rows, solution, mesh, dof_nodes, velocity_n, half,
+                buildBodyTable(meanBodies(bodies_n, bodies), num_materials), num_materials, exchange, report);
+  return report;
+}
+
+} // namespace Harmos

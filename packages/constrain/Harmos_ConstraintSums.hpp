@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CONSTRAINT_SUMS_HPP
+#define HARMOS_CONSTRAINT_SUMS_HPP
+
+#include <Harmos_ContactSystem.hpp>
+#include <Harmos_MultiplierSolver.hpp>
+
+namespace Harmos
+{
+
+/// Impulses, work and pair forces of a solution into a report, over all ranks.
+///
+/// The kinetic energy of deformable dofs and free bodies changes by the sum over rows of p . G v_mean less the part of
+/// the driven sides, and by the node conditions, which take impulse f - P f from a dof:
+///   contact_loss = - sum p . G v_mean (all sides; walls at rest),
+///   driven_work  = - sum p . (driven side's part of G v_mean) - sum over dofs (f - P f) . v_mean,
+///   change of kinetic energy by the constraints = driven_work - contact_loss, exactly, v_mean = (v_n + half)/2.
+///
+/// \param mean_bodies Bodies with (V_n + V_half)/2.
+/// Collective.
+void sumConstraint(ContactSystem const &system, ContactRows const &rows, MultiplierSolution const &solution,
+                   Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity_n,
+                   View<double *[2]> const &half, BodyTable const &mean_bodies, int num_materials,
+                   Exchange const &exchange, ConstraintReport &report);
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TinyScene.hpp"
+
+#include <Harmos_TpetraExchange.hpp>
+
+#include <Tpetra_Core.hpp>
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+using namespace HarmosTest;
+
+namespace
+{
+
+constexpr int n = 24;
+using Velocities = std::map<std::pair<long long, int>, Vector2>; // by global node and material
+
+/// A disc of PLIC-like chords (0) in a medium (1), and a rigid slab (2) that presses on the medium's top across a gap.
+std::vector<Body> bodies()
+{
+  Vector2 const centre{11.3, 9.2};
+  auto const line = [centre](Quadrilateral const &q)
+  {
+    Vector2 const c = 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));
+    double const wobble = 0.02 * std::sin(7.0 * c[0] + 3.0 * c[1]);
+    Vector2 const radial = normalised(c - centre);
+    return Plane2{radial, dot(radial, centre) + 6.1 + wobble};
+  };
+  return {{0,
+           [line](Quadrilateral const &q)
+           {
+             Region r;
+             clip(q, line(q), r);
+             return r;
+           }},
+          {1,
+           [line](Quadrilateral const &q)
+           {
+             Region below, r;
+             clip(q, Plane2{{0.05, 1.0}, 18.4}, below);
+             Plane2 const l = line(q);
+             clip(below, Plane2{-l.normal, -l.offset}, r);
+             return r;
+           }},
+          {2, [](Quadrilateral const &q)
+           {
+             Region r;
+             clip(q, Plane2{{-0.05, -1.0}, -18.7}, r);
+             return r;
+           }}};
+}
+
+struct Result
+{
+  Velocities half;
+  ConstraintReport report;
+  std::vector<RigidBody> bodies;
+};
+
+Result solve(Mesh const &mesh, Exchange const &exchange, int depth, RigidMotion motion)
+{
+  TinyScene scene(mesh, bodies(), 3, open_box);
+  scene.exchange = &exchange;
+  scene.options.tolerance = 1e-9;
+  scene.dt = 2e-3;
+  RigidBody slab;
+  slab.material = 2;
+  slab.motion = motion;
+  slab.mass = 77.0;
+  slab.inertia = 300.0;
+  slab.centre = {11.0, 21.0};
+  slab.velocity = {1.0, -300.0};
+  slab.angular_velocity = 0.3;
+  scene.bodies_n = {slab};
+  scene.setVelocity(
+      [](int material, Vector2 const &x) {
+        return Vector2{(material == 0 ? 40.0 : -30.0) * std::cos(0.3 * x[0]), 50.0 * std::sin(0.2 * x[1] + material)};
+      });
+  Result result;
+  result.report = scene.constrain();
+  result.bodies = scene.bodies;
+  auto const half = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.half);
+  auto const node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.dof_nodes.node);
+  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.dof_nodes.material);
+  auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_global);
+  auto const node_depth = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_depth);
+  for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+    if (node_depth(node(dof)) <= depth)
+      result.half[{global(node(dof)), material(dof)}] = {half(dof, 0), half(dof, 1)};
+  return result;
+}
+
+} // namespace
+
+TEST(ConstrainRanks, anyPartition_givesTheBitsOfOneRank)
+{
+  auto const comm = Tpetra::getDefaultComm();
+  HostMesh const whole = rectilinearMesh(uniform(n, n), uniform(n, n));
+  for (int const pattern : {0, 1, 2})
+    for (RigidMotion const motion : {RigidMotion::Free, RigidMotion::Prescribed})
+    {
+      Result const one = solve(buildMesh(whole), serialExchange(), 0, motion);
+      ASSERT_TRUE(one.report.converged) << one.report.residual;
+      EXPECT_GT(one.report.iterations, 10);
+      std::vector<int> owner;
+      for (int c = 0; c < n * n; ++c)
+      {
+        int const column = c % n, row = c / n, ranks = comm->getSize();
+        owner.push_back(pattern == 0   ? column * ranks / n
+                        : pattern == 1 ? row * ranks / n
+                                       : (column / 5 + row / 5) % ranks);
+      }
+      Mesh const mesh = buildLocalMesh(whole, owner, comm->getRank(), 5);
+      TpetraExchange const exchange(comm, mesh);
+      Result const some = solve(mesh, exchange, 3, motion);
+      EXPECT_EQ(some.report.iterations, one.report.iterations);
+      EXPECT_EQ(some.report.residual, one.report.residual);
+      EXPECT_EQ(some.report.rows, one.report.rows);
+      EXPECT_NEAR(some.report.contact_loss, one.report.contact_loss, 1e-13 * one.report.contact_loss);
+      EXPECT_NEAR(norm(some.report.external_impulse - one.report.external_impulse), 0.0, 1e-10);
+      EXPECT_EQ(some.bodies[0].velocity[0], one.bodies[0].velocity[0]);
+      EXPECT_EQ(some.bodies[0].velocity[1], one.bodies[0].velocity[1]);
+      EXPECT_EQ(some.bodies[0].angular_velocity, one.bodies[0].angular_velocity);
+      EXPECT_FALSE(some.half.empty());
+      int different = 0;
+      for (auto const &[key, v] : some.half)
+      {
+        Vector2 const &w = one.half.at(key);
+        different += v[0] != w[0] || v[1] != w[1];
+      }
+      EXPECT_EQ(different, 0);
+    }
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TinyScene.hpp"
+
+#include <Harmos_ContactRows.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace HarmosTest;
+
+namespace
+{
+
+std::vector<ContactRow> rowsOf(TinyScene const &scene)
+{
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions);
+  SegmentBins const bins = binSegments(s, serialExchange());
+  BodyTable const bodies = buildBodyTable({}, static_cast<int>(scene.options.interaction.extent(0)));
+  ContactRows const rows = buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins),
+                                            bins, bodies, scene.options);
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
+  return std::vector<ContactRow>(host.data(), host.data() + rows.count);
+}
+
+Region cutBy(Quadrilateral const &cell, Plane2 const &line)
+{
+  Region r;
+  clip(cell, line, r);
+  return r;
+}
+
+Plane2 reversed(Plane2 const &p)
+{
+  return {-p.normal, -p.offset};
+}
+
+Vector2 centreOf(Quadrilateral const &q)
+{
+  return 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));
+}
+
+/// Two materials split in every cell by the line that a function gives for it.
+TinyScene split(int n, std::function<Plane2(Quadrilateral const &)> const &line)
+{
+  return TinyScene(rectilinearMesh(uniform(n, n), uniform(n, n)),
+                   {{0, [line](Quadrilateral const &q) { return cutBy(q, line(q)); }},
+                    {1, [line](Quadrilateral const &q) { return cutBy(q, reversed(line(q))); }}},
+                   2, open_box);
+}
+
+double angleBetween(Vector2 const &a, Vector2 const &b)
+{
+  return std::fabs(std::atan2(cross(a, b), dot(a, b)));
+}
+
+/// The line of given normal below which a cell holds as much as `volume`.
+Plane2 lineOfVolume(Quadrilateral const &cell, Vector2 const &normal, double volume)
+{
+  double low = -1e3, high = 1e3;
+  for (int i = 0; i < 100; ++i)
+  {
+    double const middle = 0.5 * (low + high);
+    (area(cutBy(cell, {normal, middle})) < volume ? low : high) = middle;
+  }
+  return {normal, 0.5 * (low + high)};
+}
+
+/// Area of a cell inside a circle, by a polygon of 4000 corners clipped to the cell.
+double circleArea(Quadrilateral const &cell, Vector2 const &centre, double radius)
+{
+  double sum = 0.0;
+  int const n = 4000;
+  for (int i = 0; i < n; ++i)
+  {
+    double const a = 2 * Math::pi * i / n, b = 2 * Math::pi * (i + 1) / n;
+    Polygon<3> sector;
+    sector.push(centre);
+    sector.push(centre + radius * Vector2{std::cos(a), std::sin(a)});
+    sector.push(centre + radius * Vector2{std::cos(b), std::sin(b)});
+    Region part;
+    clipConvex(sector, cell, part);
+    sum += area(part);
+  }
+  return sum;
+}
+
+} // namespace
+
+TEST(ContactRows, straightLineAt15Degrees_normalsAreExact)
+{
+  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
+  auto const rows = rowsOf(split(12, [n](Quadrilateral const &) { return Plane2{n, 4.321}; }));
+  ASSERT_GE(rows.size(), 12u);
+  for (ContactRow const &r : rows)
+  {
+    EXPECT_LT(angleBetween(r.normal, n), 1e-13);
+    EXPECT_NEAR(r.gap, 0.0, 1e-14);
+    EXPECT_EQ(r.material_a, 0);
+  }
+}
+
+// Every cell's line is tilted by up to 3 degrees and cuts off the exact volume, as a reconstruction would.
+TEST(ContactRows, noisyLineAt15Degrees_normalsAreAveraged)
+{
+  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)}, t = perpendicular(n);
+  auto const rows = rowsOf(split(12,
+                                 [&](Quadrilateral const &cell)
+                                 {
+                                   Vector2 const c = centreOf(cell);
+                                   double const tilt = 0.05 * std::sin(13.0 * c[0] + 29.0 * c[1]);
+                                   return lineOfVolume(cell, normalised(n + tilt * t), area(cutBy(cell, {n, 4.321})));
+                                 }));
+  double largest = 0.0;
+  for (ContactRow const &r : rows)
+    largest = std::max(largest, angleBetween(r.normal, n));
+  RecordProperty("largest_angle_error", std::to_string(largest));
+  EXPECT_GT(rows.size(), 10u);
+  EXPECT_LT(largest, 0.0125); // a quarter of the tilt
+}
+
+TEST(ContactRows, circleOfRadius8_normalsAreRadial)
+{
+  Vector2 const centre{10.13, 9.87};
+  auto const rows =
+      rowsOf(split(20, [&](Quadrilateral const &cell)
+                   { return lineOfVolume(cell, normalised(centreOf(cell) - centre), circleArea(cell, centre, 8.0)); }));
+  double largest = 0.0, squares = 0.0;
+  for (ContactRow const &r : rows)
+  {
+    double const e = angleBetween(r.normal, normalised(r.point - centre));
+    largest = std::max(largest, e);
+    squares += e * e;
+  }
+  RecordProperty("largest_angle_error", std::to_string(largest));
+  RecordProperty("rms_angle_error", std::to_string(std::sqrt(squares / rows.size())));
+  EXPECT_GT(rows.size(), 50u);
+  EXPECT_LT(largest, 0.02);
+}
+
+// A step of 0.3 of a cell in a line on faces: the step's own face piece is a tooth and carries no row.
+TEST(ContactRows, smallStepBetweenCells_carriesNoRow)
+{
+  auto const rows = rowsOf(split(8,
+                                 [](Quadrilateral const &cell) {
+                                   return Plane2{{0.0, 1.0}, centreOf(cell)[0] < 4.0 ? 4.0 : 4.3};
+                                 }));
+  EXPECT_EQ(rows.size(), 8u);
+  for (ContactRow const &r : rows)
+    EXPECT_GT(r.normal[1], 0.9);
+}
+
+TEST(ContactRows, keysAscendAndWeightsReproduceThePoints)
+{
+  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
+  TinyScene const scene = split(12, [n](Quadrilateral const &) { return Plane2{n, 4.321}; });
+  auto const rows = rowsOf(scene);
+  std::vector<Vector2> position(static_cast<std::size_t>(scene.dof_nodes.num_dof_nodes));
+  scene.forEachDof([&](int dof, int, Vector2 const &x) { position[static_cast<std::size_t>(dof)] = x; });
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    if (i > 0)
+    {
+      EXPECT_LT(rows[i - 1].key, rows[i].key);
+    }
+    Vector2 a{0.0, 0.0}, b{0.0, 0.0};
+    for (int k = 0; k < 4; ++k)
+    {
+      a += rows[i].weight_a[k] * position[static_cast<std::size_t>(rows[i].dof_a[k])];
+      b += rows[i].weight_b[k] * position[static_cast<std::size_t>(rows[i].dof_b[k])];
+    }
+    EXPECT_LT(norm(a - rows[i].point), 1e-13);
+    EXPECT_LT(norm(b - rows[i].point), 1e-13);
+  }
+}
+
+namespace
+{
+
+/// Two ranks of which this one holds everything: rows travel through pack and unpack and come back unchanged.
+class LoneExchange : public Exchange
+{
+public:
+  int size() const override { return 2; }
+};
+
+} // namespace
+
+TEST(ContactRows, packedAndUnpacked_giveTheSameVelocities)
+{
+  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
+  TinyScene scene = split(12, [n](Quadrilateral const &) { return Plane2{n, 4.321}; });
+  scene.setVelocity([&](int material, Vector2 const &x) { return (material == 0 ? 10.0 + x[1] : -10.0 - x[0]) * n; });
+  ConstraintReport const one = scene.constrain();
+  auto const serial = Kokkos::create_mirror(scene.half);
+  Kokkos::deep_copy(serial, scene.half);
+  ConstraintReport const two = constrainVelocities(
+      scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions, scene.dof_mass, scene.velocity_n,
+      scene.predicted, scene.half, {}, scene.bodies, scene.dt, scene.options, LoneExchange());
+  auto const packed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.half);
+  EXPECT_EQ(one.iterations, two.iterations);
+  EXPECT_EQ(one.contact_loss, two.contact_loss);
+  for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+    for (int d = 0; d < 2; ++d)
+      EXPECT_EQ(serial(dof, d), packed(dof, d));
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TinyScene.hpp"
+
+#include <Harmos_InterfaceSegments.hpp>
+#include <Harmos_RayCast.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace HarmosTest;
+
+namespace
+{
+
+std::vector<InterfaceSegment> segmentsOf(TinyScene const &scene)
+{
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions);
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.segment);
+  return std::vector<InterfaceSegment>(host.data(), host.data() + s.count);
+}
+
+std::vector<RayHit> hitsOf(TinyScene const &scene)
+{
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions);
+  auto const hit = castRays(scene.mesh, s, binSegments(s, serialExchange()));
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hit);
+  return std::vector<RayHit>(host.data(), host.data() + s.count);
+}
+
+} // namespace
+
+TEST(InterfaceSegments, pureMeshOfOneMaterial_hasNone)
+{
+  TinyScene const scene(rectilinearMesh(uniform(4, 4), uniform(4, 4)), {boxBody(0, -1, -1, 9, 9)}, 1, open_box);
+  EXPECT_TRUE(segmentsOf(scene).empty());
+}
+
+// Two materials that fill columns 0-1 and 2-3: the interface is the face x = 2, no mixed cell at all.
+TEST(InterfaceSegments, interfaceOnFaces_pureCellsExposeWholeFaces)
+{
+  TinyScene const scene(rectilinearMesh(uniform(4, 4), uniform(2, 2)), {boxBody(0, 0, 0, 2, 2), boxBody(1, 2, 0, 4, 2)},
+                        2, open_box);
+  EXPECT_EQ(scene.regions.num_mixed_cells, 0);
+  auto const s = segmentsOf(scene);
+  auto const hit = hitsOf(scene);
+  ASSERT_EQ(s.size(), 4u);
+  for (std::size_t i = 0; i < s.size(); ++i)
+  {
+    EXPECT_DOUBLE_EQ(s[i].midpoint[0], 2.0);
+    EXPECT_DOUBLE_EQ(s[i].length, 1.0);
+    EXPECT_DOUBLE_EQ(s[i].exposed, 1.0);
+    EXPECT_DOUBLE_EQ(s[i].normal[0], s[i].material == 0 ? 1.0 : -1.0);
+    ASSERT_GE(hit[i].segment, 0);
+    EXPECT_NE(s[static_cast<std::size_t>(hit[i].segment)].material, s[i].material);
+    EXPECT_EQ(hit[i].gap, 0.0);
+  }
+}
+
+// Right cell is cut at y = 0.25 into material 0 below and 1 above; left cell is all 0: it exposes the upper three
+// quarters.
+TEST(InterfaceSegments, pureCellBesideMixedCell_exposesWhatItsMaterialDoesNotCover)
+{
+  TinyScene const scene(rectilinearMesh(uniform(2, 2), uniform(1, 1)),
+                        {boxBody(0, 0, 0, 1, 1), boxBody(0, 1, 0, 2, 0.25), boxBody(1, 1, 0.25, 2, 1)}, 2, open_box);
+  int found = 0;
+  for (InterfaceSegment const &s : segmentsOf(scene))
+    if (s.cell == 0)
+    {
+      ++found;
+      EXPECT_NEAR(s.length, 0.75, 1e-14);
+      EXPECT_NEAR(s.exposed, 0.75, 1e-14);
+      EXPECT_NEAR(s.midpoint[1], 0.625, 1e-14);
+    }
+  EXPECT_EQ(found, 1);
+}
+
+// Material 0 below y = 0.5 faces 1 (x < 0.4) and 2 (x > 0.4) in one cell: its edge is split there.
+TEST(InterfaceSegments, edgeThatFacesTwoMaterials_isSplit)
+{
+  TinyScene const scene(rectilinearMesh(uniform(1, 1), uniform(1, 1)),
+                        {boxBody(0, 0, 0, 1, 0.5), boxBody(1, 0, 0.5, 0.4, 1), boxBody(2, 0.4, 0.5, 1, 1)}, 3,
+                        open_box);
+  std::vector<double> lengths;
+  for (InterfaceSegment const &s : segmentsOf(scene))
+    if (s.material == 0)
+      lengths.push_back(s.length);
+  ASSERT_EQ(lengths.size(), 2u);
+  EXPECT_NEAR(lengths[0] + lengths[1], 1.0, 1e-14);
+  EXPECT_NEAR(std::min(lengths[0], lengths[1]), 0.4, 1e-14);
+}
+
+TEST(InterfaceSegments, contactWall_isASegmentThatFacesIntoTheDomain)
+{
+  std::vector<BoundaryKind> kinds = open_box;
+  kinds[2] = BoundaryKind::ContactWall;
+  TinyScene const scene(rectilinearMesh(uniform(2, 2), uniform(2, 2)), {boxBody(0, 0, 0.5, 2, 2)}, 1, kinds);
+  auto const s = segmentsOf(scene);
+  auto const hit = hitsOf(scene);
+  int walls = 0, facing = 0;
+  for (std::size_t i = 0; i < s.size(); ++i)
+  {
+    walls += s[i].material == -1 && s[i].normal[1] == 1.0;
+    if (s[i].material == 0 && s[i].normal[1] < -0.5)
+    {
+      ASSERT_GE(hit[i].segment, 0);
+      EXPECT_EQ(s[static_cast<std::size_t>(hit[i].segment)].material, -1);
+      EXPECT_NEAR(hit[i].gap, 0.5, 1e-14);
+      ++facing;
+    }
+  }
+  EXPECT_EQ(walls, 2);
+  EXPECT_EQ(facing, 2);
+}
+
+TEST(RayCast, gapAcrossCells_isMeasuredAndBeyondOneCellNothingIsFound)
+{
+  for (double const gap : {0.3, 0.9, 1.1})
+  {
+    TinyScene const scene(rectilinearMesh(uniform(6, 6), uniform(1, 1)),
+                          {boxBody(0, 0, 0, 2.5, 1), boxBody(1, 2.5 + gap, 0, 6, 1)}, 2, open_box);
+    auto const s = segmentsOf(scene);
+    auto const hit = hitsOf(scene);
+    for (std::size_t i = 0; i < s.size(); ++i)
+    {
+      if (std::fabs(s[i].normal[0]) < 0.5)
+        continue;
+      if (gap > 1.0)
+        EXPECT_EQ(hit[i].segment, -1);
+      else
+      {
+        ASSERT_GE(hit[i].segment, 0);
+        EXPECT_NEAR(hit[i].gap, gap, 1e-13);
+        EXPECT_NEAR(hit[i].cosine, 1.0, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(RayCast, overlapOfSeparateBlocks_isFoundAsGapZero)
+{
+  BlockMesh const blocks =
+      mappedBlocks({{{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}}, {2, 2}}, {{{{2, 0}, {4, 0}, {4, 2}, {2, 2}}}, {2, 2}}});
+  HostMesh host = blocks.mesh;
+  for (auto &f : host.face_boundary)
+    f = {-1, -1, -1, -1};
+  for (std::size_t i = 9; i < host.node.size(); ++i)
+    host.node[i][0] -= 0.1; // the second block moves into the first
+  auto const block = [](bool second)
+  {
+    return [second](Quadrilateral const &q)
+    { return (q[0][0] != std::floor(q[0][0])) == second ? wholeCell(q) : Region(); };
+  };
+  TinyScene const scene(host, {{0, block(false)}, {1, block(true)}}, 2, open_box, Kinematics::Lagrangian);
+  auto const s = segmentsOf(scene);
+  auto const hit = hitsOf(scene);
+  int found = 0;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if (std::fabs(s[i].midpoint[0] - (s[i].material == 0 ? 2.0 : 1.9)) < 1e-12 && std::fabs(s[i].normal[0]) > 0.9)
+    {
+      ASSERT_GE(hit[i].segment, 0);
+      EXPECT_EQ(hit[i].gap, 0.0);
+      ++found;
+    }
+  EXPECT_EQ(found, 4);
+}

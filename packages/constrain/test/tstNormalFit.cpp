@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_NormalFit.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+using namespace Harmos;
+
+namespace
+{
+
+Vector2 fit(std::vector<FitSample> const &sample)
+{
+  std::vector<double> omega(sample.size());
+  return fitNormal(sample.data(), omega.data(), static_cast<int>(sample.size()), {1.0, 0.0});
+}
+
+FitSample sampleAt(Vector2 const &x, Vector2 const &n, double length, int side)
+{
+  return {x, n, length, fitWeight(length, dot(x, x), 0.0), side};
+}
+
+double angleBetween(Vector2 const &a, Vector2 const &b)
+{
+  return std::fabs(std::atan2(cross(a, b), dot(a, b)));
+}
+
+Vector2 atAngle(double degrees)
+{
+  return {std::cos(degrees * Math::pi / 180), std::sin(degrees * Math::pi / 180)};
+}
+
+} // namespace
+
+TEST(NormalFit, noSamples_returnsTheFallback)
+{
+  Vector2 const n = fit({});
+  EXPECT_EQ(n[0], 1.0);
+  EXPECT_EQ(n[1], 0.0);
+}
+
+TEST(NormalFit, oneSegment_returnsItsNormal)
+{
+  Vector2 const n = atAngle(37.0);
+  EXPECT_LT(angleBetween(fit({sampleAt({0.1, 0.2}, n, 0.7, 0)}), n), 1e-14);
+}
+
+TEST(NormalFit, straightLineOnBothSides_isExact)
+{
+  Vector2 const n = atAngle(105.0), t = perpendicular(n);
+  std::vector<FitSample> s;
+  for (int i = -3; i <= 3; ++i)
+  {
+    s.push_back(sampleAt((0.9 * i) * t, n, 0.9, 0));
+    s.push_back(sampleAt((0.8 * i + 0.2) * t + 0.15 * n, n, 0.8, 1));
+  }
+  EXPECT_LT(angleBetween(fit(s), n), 1e-14);
+}
+
+TEST(NormalFit, straightLineWithAWildSegment_isNearlyExact)
+{
+  Vector2 const n = atAngle(105.0), t = perpendicular(n);
+  std::vector<FitSample> s;
+  for (int i = -3; i <= 3; ++i)
+    for (int side = 0; side < 2; ++side)
+      s.push_back(sampleAt((0.9 * i) * t, i == 1 && side == 0 ? atAngle(140.0) : n, 0.9, side));
+  EXPECT_LT(angleBetween(fit(s), n), 2e-3);
+}
+
+TEST(NormalFit, noisyLine_isAveraged)
+{
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  Vector2 const n = atAngle(105.0), t = perpendicular(n);
+  double largest = 0.0;
+  for (int trial = 0; trial < 50; ++trial)
+  {
+    std::vector<FitSample> s;
+    for (int i = -3; i <= 3; ++i)
+      for (int side = 0; side < 2; ++side)
+      {
+        double const tilt = 0.01 * noise(random);
+        s.push_back(sampleAt((0.9 * i) * t + (0.003 * noise(random)) * n, normalised(n + tilt * t), 0.9, side));
+      }
+    largest = std::max(largest, angleBetween(fit(s), n));
+  }
+  RecordProperty("largest_angle_error", std::to_string(largest));
+  EXPECT_LT(largest, 0.005); // own normals err by up to three times 0.01
+}
+
+// Chords of a circle of radius 8: curvature must not tilt the normal, wherever the point lies among the chords.
+TEST(NormalFit, chordsOfACircle_normalIsRadial)
+{
+  double largest = 0.0;
+  for (int trial = 0; trial < 40; ++trial)
+  {
+    double const R = 8.0, chord = 0.11, at = 0.3 + 0.05 * trial;
+    auto const centre = [&](double phi) { return (R * std::cos(0.5 * chord)) * Vector2{std::cos(phi), std::sin(phi)}; };
+    Vector2 const x = centre(at);
+    std::vector<FitSample> s;
+    for (int i = -4; i <= 3; ++i) // one-sided: more on one hand
+      for (int side = 0; side < 2; ++side)
+      {
+        double const phi = at + i * chord;
+        s.push_back(sampleAt(centre(phi) - x, {std::cos(phi), std::sin(phi)}, 2 * R * std::sin(0.5 * chord), side));
+      }
+    largest = std::max(largest, angleBetween(fit(s), {std::cos(at), std::sin(at)}));
+  }
+  RecordProperty("largest_angle_error", std::to_string(largest));
+  EXPECT_LT(largest, 2e-3);
+}

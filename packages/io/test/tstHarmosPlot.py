@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""harmos-plot on the folder that tstFieldOutput wrote. Usage: tstHarmosPlot.py HARMOS_PLOT RUN_FOLDER OUTPUT_FOLDER"""
+
+import json
+import os
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree as xml
+
+try:
+    import h5py
+    import numpy
+    from PIL import Image
+except ImportError as error:
+    sys.exit(f"tstHarmosPlot: {error}; on Debian: apt install python3-matplotlib python3-h5py python3-pil")
+
+PLOT, RUN, OUT = sys.argv[1:4]
+
+
+def plot(*arguments):
+    return subprocess.run([sys.executable, PLOT, *arguments], capture_output=True, text=True, check=False)
+
+
+class HarmosPlot(unittest.TestCase):
+    def picture(self, *arguments):
+        path = os.path.join(OUT, "plot.png")
+        if os.path.exists(path):
+            os.remove(path)
+        result = plot(*arguments, "-o", path, "--dpi", "60")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.strip(), path)
+        with Image.open(path) as image:
+            return numpy.asarray(image.convert("RGB"))
+
+    def test_materials_areDrawnInTheirColoursInTheRightShares(self):
+        pixels = self.picture(RUN, "--no-interface").reshape(-1, 3).astype(int)
+        share = [(abs(pixels - colour).sum(axis=1) < 6).sum() for colour in ([0x4C, 0x78, 0xA8], [0xE3, 0x9C, 0x37])]
+        self.assertAlmostEqual(share[0] / share[1], 2.25 / 1.5, delta=0.05)  # areas 4.5 and 3
+
+    def test_fields_areDrawnWithAColourBar(self):
+        for field in ("pressure", "velocity", "deviator_xy"):  # a scalar, a length, a component
+            self.assertGreater(len(numpy.unique(self.picture(RUN, "--field", field).reshape(-1, 3), axis=0)), 20, field)
+
+    def test_comparison_isWiderOrTallerThanOnePanel(self):
+        one, two = self.picture(RUN), self.picture(RUN, "--compare", RUN, "--labels", "xfem", "single")
+        self.assertGreater(two.size, 1.5 * one.size)
+
+    def test_historyColumns_areDrawn(self):
+        self.picture(RUN, "--history", "kinetic_energy", "copper.mass")
+
+    def test_film_hasAPictureForEveryOutput(self):
+        path = os.path.join(OUT, "film.gif")
+        self.assertEqual(plot(RUN, "--film", path, "--field", "velocity", "--dpi", "50").returncode, 0)
+        with Image.open(path) as film:
+            self.assertGreaterEqual(film.n_frames, 1)
+            self.assertEqual(film.format, "GIF")
+
+    def test_mistakes_areOneClearLine(self):
+        for arguments, words in (([OUT + "/none"], "no such folder"), ([RUN, "--history", "speed"], "no column 'speed'"),
+                                 ([RUN, "--frame", "7"], "there are 3 frames"), ([RUN, "--film", "a.avi"], ".gif or .mp4")):
+            result = plot(*arguments)
+            self.assertEqual(result.returncode, 2, words)
+            self.assertIn(words, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+
+class Files(unittest.TestCase):
+    def test_xdmf_isWellFormedAndItsShapesAreThoseOfTheArrays(self):
+        root = xml.parse(os.path.join(RUN, "fields.xdmf")).getroot()
+        self.assertEqual([float(time.get("Value")) for time in root.iter("Time")], [0.0, 1e-6, 2e-6])
+        items = list(root.iter("DataItem"))
+        self.assertEqual(len(items), 3 * (2 + 5 + 2 + 9 + 2 + 2))
+        for item in items:
+            name, path = item.text.split(":")
+            with h5py.File(os.path.join(RUN, name), "r") as file:
+                shape = tuple(int(n) for n in item.get("Dimensions").split())
+                self.assertEqual(file[path].shape, shape, item.text)
+                self.assertEqual(file[path].dtype.itemsize, int(item.get("Precision")), item.text)
+                self.assertEqual(file[path].dtype.kind, {"Int": "i", "Float": "f"}[item.get("NumberType")], item.text)
+
+    def test_vtu_isWellFormedAndListedByThePvd(self):
+        for entry in xml.parse(os.path.join(RUN, "fields.pvd")).getroot().iter("DataSet"):
+            piece = xml.parse(os.path.join(RUN, entry.get("file"))).getroot().find(".//Piece")
+            self.assertEqual(int(piece.get("NumberOfCells")), 10)
+            self.assertEqual(int(piece.get("NumberOfPoints")), 40)
+
+    def test_summary_isJson(self):
+        path = os.path.join(os.path.dirname(RUN), "summary.json")
+        if not os.path.exists(path):
+            self.fail(f"{path} is missing: run tstHistory first")
+        with open(path, encoding="utf-8") as file:
+            summary = json.load(file)
+        self.assertEqual(summary["deck"]["mesh"]["cells"], [8, 4])
+        self.assertEqual(summary["phases"]["remap"], 1.5)
+
+
+if __name__ == "__main__":
+    os.makedirs(OUT, exist_ok=True)
+    unittest.main(argv=sys.argv[:1])

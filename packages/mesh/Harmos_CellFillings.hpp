@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CELL_FILLINGS_HPP
+#define HARMOS_CELL_FILLINGS_HPP
+
+#include <Harmos_Mesh.hpp>
+#include <Harmos_Shape.hpp>
+
+#include <utility>
+#include <vector>
+
+/// What shapes fill of cells, as the painter (Harmos_Paint.hpp) gathers it. Host values.
+
+namespace Harmos
+{
+
+/// Local cells whose bounding boxes meet one of some boxes.
+struct CandidateCells
+{
+  View<int *> cell; // ascending
+  View<double *[4][2]> corner;
+};
+
+CandidateCells candidateCells(Mesh const &mesh, std::vector<Box> const &boxes);
+
+/// What one body fills of a cell, moments about the cell's corner 0.
+struct Part
+{
+  int body;
+  Moments<1> moments;
+};
+
+/// What one material fills of a cell.
+struct Filling
+{
+  int material;
+  double fraction;
+  Vector2 centroid;
+  std::vector<int> body;
+  std::vector<double> volume; // of each body [length^2]
+};
+
+/// Parts of a cell gathered by material, ascending.
+///
+/// Fractions below 1e-14 are left out; where their sum is within 1e-13 of one, or above one, the largest is set so that
+/// they sum to one (in order of summation never above).
+std::vector<Filling> fillingsOf(Quadrilateral const &cell, std::vector<Part> const &parts,
+                                std::vector<int> const &material_of_body);
+
+/// Fillings of some cells, in order.
+struct FillingRows
+{
+  std::vector<int> cell; // of each filling
+  std::vector<Filling> filling;
+};
+
+/// Calls parts_of(quadrilateral, local cell) for every candidate.
+template <class PartsOf>
+FillingRows fillCells(CandidateCells const &candidates, std::vector<int> const &material_of_body, PartsOf parts_of)
+{
+  auto const cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.cell);
+  auto const corner = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.corner);
+  FillingRows rows;
+  for (std::size_t i = 0; i < cell.extent(0); ++i)
+  {
+    Quadrilateral q;
+    for (int k = 0; k < 4; ++k)
+      q.push({corner(i, k, 0), corner(i, k, 1)});
+    for (Filling &filling : fillingsOf(q, parts_of(q, cell(i)), material_of_body))
+    {
+      rows.cell.push_back(cell(i));
+      rows.filling.push_back(std::move(filling));
+    }
+  }
+  return rows;
+}
+
+/// Offsets of compressed rows over all cells from the (ascending) cells of the items.
+View<int *> offsetsOf(std::vector<int> const &cell, int num_cells);
+
+} // namespace Harmos
+
+#endif

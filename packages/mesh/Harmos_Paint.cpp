@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_Paint.hpp>
+
+#include <Harmos_CellFillings.hpp>
+#include <Harmos_ShapeRegion.hpp>
+
+#include <stdexcept>
+
+namespace Harmos
+{
+
+namespace
+{
+
+constexpr double overlap_tolerance = 1e-9;
+
+std::string label(Body const &body, int number)
+{
+  return "body " + std::to_string(number) + (body.name.empty() ? "" : " (" + body.name + ")");
+}
+
+struct BodyPainter
+{
+  std::vector<Body> const &bodies;
+  std::vector<Box> box;
+
+  explicit BodyPainter(std::vector<Body> const &b) : bodies(b)
+  {
+    for (Body const &body : bodies)
+      box.push_back(body.shape.boundingBox());
+  }
+
+  /// The part of body i that later bodies leave to it, of those present in the cell.
+  Moments<1> remaining(Quadrilateral const &cell, int i, std::vector<int> const &present) const
+  {
+    std::vector<int> cutters;
+    for (int const j : present)
+      if (j > i && bodies[j].cut_from_earlier)
+        cutters.push_back(j);
+    if (cutters.empty())
+      return bodies[i].shape.intersectionMoments(cell);
+    ShapeRegion region(cell);
+    region.intersect(bodies[i].shape);
+    for (int const j : cutters)
+      region.subtract(bodies[j].shape);
+    return region.moments();
+  }
+
+  /// What both i and the later, not cutting j claim of the cell.
+  double sharedVolume(Quadrilateral const &cell, int i, int j, std::vector<int> const &present) const
+  {
+    ShapeRegion region(cell);
+    region.intersect(bodies[i].shape);
+    region.intersect(bodies[j].shape);
+    for (int const k : present)
+      if (k > i && bodies[k].cut_from_earlier)
+        region.subtract(bodies[k].shape);
+    return region.moments().volume();
+  }
+
+  std::vector<Part> parts(Quadrilateral const &cell, long long global_cell) const
+  {
+    Box const of_cell = boundingBox(cell);
+    std::vector<int> present;
+    for (int i = 0; i < static_cast<int>(bodies.size()); ++i)
+      if (box[i].meets(of_cell) && bodies[i].shape.position(cell) != CellPosition::Outside)
+        present.push_back(i);
+
+    std::vector<Part> result;
+    for (int const i : present)
+      result.push_back({i, remaining(cell, i, present)});
+
+    double const allowed = overlap_tolerance * area(cell);
+    for (std::size_t a = 0; a < result.size(); ++a)
+      for (std::size_t b = a + 1; b < result.size(); ++b)
+      {
+        int const i = result[a].body;
+        int const j = result[b].body;
+        if (bodies[j].cut_from_earlier || result[a].moments.volume() <= allowed ||
+            result[b].moments.volume() <= allowed)
+          continue;
+        double const shared = sharedVolume(cell, i, j, present);
+        if (shared > allowed)
+          throw std::runtime_error("cell " + std::to_string(global_cell) + ": " + label(bodies[i], i) + " and " +
+                                   label(bodies[j], j) + " overlap by " + std::to_string(shared / area(cell)) +
+                                   " of it (more than 1e-9), and the later one is not cut from the earlier");
+      }
+    return result;
+  }
+};
+
+void checkBodies(std::vector<Body> const &bodies)
+{
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+  {
+    Body const &body = bodies[i];
+    if (!(body.density > 0.0) || !(body.specific_volume > 0.0) || body.material < 0)
+      throw std::runtime_error(label(body, static_cast<int>(i)) + ": density " + std::to_string(body.density) +
+                               " and specific volume " + std::to_string(body.specific_volume) +
+                               " must be positive, material " + std::to_string(body.material) +
+                               " must not be negative");
+  }
+}
+
+} // namespace
+
+Painting paint(Mesh const &mesh, std::vector<Body> const &bodies)
+{
+  checkBodies(bodies);
+  BodyPainter const painter(bodies);
+  std::vector<int> material_of_body;
+  for (Body const &body : bodies)
+    material_of_body.push_back(body.material);
+  auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_global);
+  FillingRows const rows = fillCells(candidateCells(mesh, painter.box), material_of_body,
+                                     [&](Quadrilateral const &q, int cell) { return painter.parts(q, global(cell)); });
+
+  int const num_pairs = static_cast<int>(rows.filling.size());
+  std::size_t num_items = 0;
+  for (Filling const &filling : rows.filling)
+    num_items += filling.body.size();
+  Painting painting;
+  CellMaterialPairs &pairs = painting.pairs;
+  pairs.num_pairs = num_pairs;
+  pairs.offset = offsetsOf(rows.cell, mesh.num_cells);
+  pairs.material = View<int *>("Harmos::pairs::material", num_pairs);
+  pairs.cell = View<int *>("Harmos::pairs::cell", num_pairs);
+  painting.record = View<double *[num_pair_fields]>("Harmos::pairs::record", num_pairs);
+  painting.centroid = View<double *[2]>("Harmos::pairs::centroid", num_pairs);
+  painting.pair_body.offset = View<int *>("Harmos::paint::pair_body::offset", num_pairs + 1);
+  painting.pair_body.item = View<int *>("Harmos::paint::pair_body::item", num_items);
+  painting.body_mass = View<double *>("Harmos::paint::body_mass", num_items);
+
+  auto const cell_area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_area);
+  auto const material = Kokkos::create_mirror_view(pairs.material);
+  auto const cell = Kokkos::create_mirror_view(pairs.cell);
+  auto const record = Kokkos::create_mirror_view(painting.record);
+  auto const centroid = Kokkos::create_mirror_view(painting.centroid);
+  auto const offset = Kokkos::create_mirror_view(painting.pair_body.offset);
+  auto const item = Kokkos::create_mirror_view(painting.pair_body.item);
+  auto const body_mass = Kokkos::create_mirror_view(painting.body_mass);
+  Kokkos::deep_copy(record, 0.0);
+
+  int next = 0;
+  offset(0) = 0;
+  for (int pair = 0; pair < num_pairs; ++pair)
+  {
+    Filling const &filling = rows.filling[pair];
+    material(pair) = filling.material;
+    cell(pair) = rows.cell[pair];
+    for (int d = 0; d < 2; ++d)
+      centroid(pair, d) = filling.centroid[d];
+    double clipped_volume = 0.0;
+    for (double const volume : filling.volume)
+      clipped_volume += volume;
+    // Normalised fractions decide: the bodies share the pair's volume as they were clipped.
+    double const share = filling.fraction * cell_area(cell(pair)) / clipped_volume;
+    double mass = 0.0;
+    double specific_volume = 0.0;
+    double internal_energy = 0.0;
+    for (std::size_t b = 0; b < filling.body.size(); ++b, ++next)
+    {
+      Body const &body = bodies[filling.body[b]];
+      double const m = body.density * (filling.volume[b] * share);
+      item(next) = filling.body[b];
+      body_mass(next) = m;
+      mass += m;
+      // Running means: exact where all bodies have the same state.
+      specific_volume += m / mass * (body.specific_volume - specific_volume);
+      internal_energy += m / mass * (body.internal_energy - internal_energy);
+    }
+    offset(pair + 1) = next;
+    record(pair, Mass) = mass;
+    record(pair, VolumeFraction) = filling.fraction;
+    record(pair, SpecificVolume) = specific_volume;
+    record(pair, InternalEnergy) = internal_energy;
+  }
+
+  Kokkos::deep_copy(pairs.material, material);
+  Kokkos::deep_copy(pairs.cell, cell);
+  Kokkos::deep_copy(painting.record, record);
+  Kokkos::deep_copy(painting.centroid, centroid);
+  Kokkos::deep_copy(painting.pair_body.offset, offset);
+  Kokkos::deep_copy(painting.pair_body.item, item);
+  Kokkos::deep_copy(painting.body_mass, body_mass);
+  return painting;
+}
+
+View<double *[2]> paintedVelocity(Mesh const &mesh, std::vector<Body> const &bodies, Painting const &painting,
+                                  NodeMaterialPairs const &dof_nodes)
+{
+  // velocity, rotation_centre, angular_velocity
+  View<double *[5]> motion("Harmos::paint::motion", bodies.size());
+  auto const host = Kokkos::create_mirror_view(motion);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+  {
+    for (int d = 0; d < 2; ++d)
+    {
+      host(i, d) = bodies[i].velocity[d];
+      host(i, 2 + d) = bodies[i].rotation_centre[d];
+    }
+    host(i, 4) = bodies[i].angular_velocity;
+  }
+  Kokkos::deep_copy(motion, host);
+
+  View<double *[2]> velocity("Harmos::dof_nodes::velocity", dof_nodes.num_dof_nodes);
+  Kokkos::parallel_for(
+      "Harmos::paint::velocity", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+        int const node = dof_nodes.node(dof);
+        int const of_material = dof_nodes.material(dof);
+        Vector2 const x{mesh.node_position(node, 0), mesh.node_position(node, 1)};
+        Vector2 mean{0.0, 0.0};
+        double mass = 0.0;
+        for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
+        {
+          int const cell = mesh.node_cell.item(i) / 4;
+          for (int pair = painting.pairs.offset(cell); pair < painting.pairs.offset(cell + 1); ++pair)
+          {
+            if (of_material != -1 && painting.pairs.material(pair) != of_material)
+              continue;
+            for (int k = painting.pair_body.offset(pair); k < painting.pair_body.offset(pair + 1); ++k)
+            {
+              int const body = painting.pair_body.item(k);
+              Vector2 const arm = x - Vector2{motion(body, 2), motion(body, 3)};
+              Vector2 const v = Vector2{motion(body, 0), motion(body, 1)} + motion(body, 4) * perpendicular(arm);
+              mass += painting.body_mass(k);
+              mean += painting.body_mass(k) / mass * (v - mean);
+            }
+          }
+        }
+        velocity(dof, 0) = mean[0];
+        velocity(dof, 1) = mean[1];
+      });
+  return velocity;
+}
+
+PaintedRows rigidVolumes(Mesh const &mesh, std::vector<Shape> const &shapes, std::vector<int> const &materials)
+{
+  if (shapes.size() != materials.size())
+    throw std::runtime_error("rigidVolumes: " + std::to_string(shapes.size()) + " shapes but " +
+                             std::to_string(materials.size()) + " materials");
+  std::vector<Box> boxes;
+  for (Shape const &shape : shapes)
+    boxes.push_back(shape.boundingBox());
+  auto const parts_of = [&](Quadrilateral const &q, int)
+  {
+    Box const of_cell = boundingBox(q);
+    std::vector<Part> parts;
+    for (int i = 0; i < static_cast<int>(shapes.size()); ++i)
+      if (boxes[i].meets(of_cell))
+        parts.push_back({i, shapes[i].intersectionMoments(q)});
+    return parts;
+  };
+  FillingRows const rows = fillCells(candidateCells(mesh, boxes), materials, parts_of);
+
+  std::size_t const count = rows.filling.size();
+  PaintedRows result{offsetsOf(rows.cell, mesh.num_cells), View<int *>("Harmos::rigid::material", count),
+                     View<double *>("Harmos::rigid::volume_fraction", count),
+                     View<double *[2]>("Harmos::rigid::centroid", count)};
+  auto const material = Kokkos::create_mirror_view(result.material);
+  auto const fraction = Kokkos::create_mirror_view(result.volume_fraction);
+  auto const centroid = Kokkos::create_mirror_view(result.centroid);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    material(i) = rows.filling[i].material;
+    fraction(i) = rows.filling[i].fraction;
+    for (int d = 0; d < 2; ++d)
+      centroid(i, d) = rows.filling[i].centroid[d];
+  }
+  Kokkos::deep_copy(result.material, material);
+  Kokkos::deep_copy(result.volume_fraction, fraction);
+  Kokkos::deep_copy(result.centroid, centroid);
+  return result;
+}
+
+} // namespace Harmos

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <detail/Harmos_Acceptors.hpp>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+namespace
+{
+
+constexpr double full_tolerance = 1e-12; // of the cell: sums of fractions this near to one are made one
+constexpr double least_share = 1e-10;    // of the cell: what deformable material keeps where a rigid body covers it all
+
+struct FinishFunctor
+{
+  Input in;
+  Classes classes;
+  StageState stage;
+  Acceptors acceptors;
+  Bookings bookings;
+
+  KOKKOS_INLINE_FUNCTION bool kept(int candidate) const { return acceptors.merge_to(candidate) < 0; }
+
+  KOKKOS_INLINE_FUNCTION bool hadVoid(int cell) const
+  {
+    int const kind = in.pairs.cell_kind(cell);
+    if (kind != MixedCell)
+      return kind == VoidCell;
+    double sum = 0.0;
+    for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
+      sum += in.state.record(pair, VolumeFraction);
+    return sum < 1.0 - full_tolerance;
+  }
+
+  /// Void, or a boundary beyond which void lies, explains a gap.
+  KOKKOS_INLINE_FUNCTION bool voidAround(int cell) const
+  {
+    bool any = classes.openAround(in.mesh, cell) != 0 || hadVoid(cell);
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1) && !any; ++j)
+      any = hadVoid(in.mesh.cell_neighbour.item(j));
+    return any;
+  }
+
+  KOKKOS_INLINE_FUNCTION void setVerbatim(int index, int cell) const
+  {
+    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+    {
+      int const pair = in.pairs.find(cell, acceptors.material(c));
+      for (int f = 0; f < num_pair_fields; ++f)
+        acceptors.record(c, f) = stage.record(pair, f);
+      acceptors.kinetic(c) = stage.kineticEnergy(in.pairs, pair);
+      for (int d = 0; d < 2; ++d)
+        acceptors.centroid(c, d) = in.state.centroid(pair, d);
+      for (int k = 0; k < 4; ++k)
+        for (int d = 0; d < 2; ++d)
+          acceptors.corner_velocity(c, 2 * k + d) = stage.velocity(in.pairs.dof_node(pair, k), d);
+    }
+  }
+
+  /// Everything but the volume fraction.
+  KOKKOS_INLINE_FUNCTION void setDeformable(int c, int cell) const
+  {
+    double const mass = acceptors.sum(c, DensityField);
+    double const per_mass = 1.0 / mass;
+    double const per_volume = 1.0 / acceptors.sum(c, VolumeSum);
+    double q[num_pair_fields];
+    q[Mass] = mass;
+    q[VolumeFraction] = 0.0;
+    for (int f = SpecificVolume; f <= PlasticStrain; ++f)
+      q[f] = acceptors.sum(c, f) * per_mass;
+    for (int f = DeviatorXX; f <= DeviatorXY; ++f)
+      q[f] = acceptors.sum(c, f) * per_volume;
+    returnToYield(in.materials(acceptors.material(c)), q);
+    for (int f = 0; f < num_pair_fields; ++f)
+      acceptors.record(c, f) = q[f];
+    acceptors.kinetic(c) = acceptors.sum(c, KineticField) * per_mass;
+    for (int i = 0; i < 8; ++i)
+      acceptors.corner_velocity(c, i) = acceptors.sum(c, first_corner_field + i) * per_mass;
+    setCentroid(c, cell, {per_volume * acceptors.sum(c, FirstMomentX), per_volume * acceptors.sum(c, FirstMomentY)});
+  }
+
+  KOKKOS_INLINE_FUNCTION void setCentroid(int c, int cell, Vector2 const &local) const
+  {
+    Vector2 const origin = acceptorOrigin(in.mesh, cell);
+    Quadrilateral const q = cellQuadrilateral(in.mesh, cell);
+    for (int d = 0; d < 2; ++d)
+    {
+      double const low = Math::min(Math::min(q[0][d], q[1][d]), Math::min(q[2][d], q[3][d]));
+      double const high = Math::max(Math::max(q[0][d], q[1][d]), Math::max(q[2][d], q[3][d]));
+      acceptors.centroid(c, d) = Math::clamp(origin[d] + local[d], low, high);
+    }
+  }
+
+  KOKKOS_INLINE_FUNCTION void setRigid(int c, int cell) const
+  {
+    Material const &law = in.materials(acceptors.material(c));
+    for (int r = in.rigid.offset(cell); r < in.rigid.offset(cell + 1); ++r)
+    {
+      if (in.rigid.material(r) != acceptors.material(c))
+        continue;
+      double const fraction = in.rigid.volume_fraction(r);
+      for (int f = 0; f < num_pair_fields; ++f)
+        acceptors.record(c, f) = 0.0;
+      acceptors.record(c, VolumeFraction) = fraction;
+      acceptors.record(c, Mass) = law.density0 * fraction * in.mesh.cell_area(cell);
+      acceptors.record(c, SpecificVolume) = 1.0 / law.density0;
+      acceptors.kinetic(c) = 0.0;
+      for (int d = 0; d < 2; ++d)
+        acceptors.centroid(c, d) = in.rigid.centroid(r, d);
+      for (int i = 0; i < 8; ++i)
+        acceptors.corner_velocity(c, i) = 0.0;
+    }
+  }
+
+  /// The fractions of a full cell sum to one: the largest takes the round-off.
+  KOKKOS_INLINE_FUNCTION void makeFull(int index) const
+  {
+    int largest = -1;
+    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+      if (kept(c) && (largest < 0 || acceptors.record(c, VolumeFraction) > acceptors.record(largest, VolumeFraction)))
+        largest = c;
+    double others = 0.0;
+    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+      if (kept(c) && c != largest)
+        others += acceptors.record(c, VolumeFraction);
+    if (largest >= 0)
+      acceptors.record(largest, VolumeFraction) = 1.0 - others;
+  }
+
+  /// The volume that the deformable materials get, and whether the cell is full then.
+  KOKKOS_INLINE_FUNCTION double share(int index, int cell, double deformable, double rigid, bool &full) const
+  {
+    double const cell_area = in.mesh.cell_area(cell);
+    double const available = Math::max(cell_area - rigid, deformable > 0.0 ? least_share * cell_area : 0.0);
+    double const gap = available - deformable;
+    bool const owned = in.mesh.cell_depth(cell) == 0;
+    full = true;
+    if (Math::fabs(gap) <= full_tolerance * cell_area)
+      return available;
+    if (gap < 0.0)
+    {
+      if (owned)
+        bookings(index, BookOverlap) -= gap;
+      return available;
+    }
+    bool const spurious = !voidAround(cell);
+    if (spurious && deformable > 0.0 && gap < in.options.close_void_below * cell_area)
+    {
+      if (owned)
+        bookings(index, BookClosed) += gap;
+      return available;
+    }
+    full = false;
+    if (owned && spurious)
+      bookings(index, BookVoid) += gap;
+    return deformable;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int index) const
+  {
+    int const cell = classes.interface_cell(index);
+    if (acceptors.verbatim(index) != 0)
+    {
+      setVerbatim(index, cell);
+      return;
+    }
+    double const cell_area = in.mesh.cell_area(cell);
+    double deformable = 0.0, rigid = 0.0;
+    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+    {
+      if (!kept(c))
+        continue;
+      if (in.isRigid(acceptors.material(c)))
+      {
+        setRigid(c, cell);
+        rigid += acceptors.record(c, VolumeFraction) * cell_area;
+      }
+      else
+      {
+        setDeformable(c, cell);
+        deformable += acceptors.sum(c, VolumeSum);
+      }
+    }
+    bool full;
+    double const volume = share(index, cell, deformable, rigid, full);
+    double const per_area = deformable > 0.0 ? volume / (deformable * cell_area) : 0.0;
+    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+      if (kept(c) && !in.isRigid(acceptors.material(c)))
+        acceptors.record(c, VolumeFraction) = acceptors.sum(c, VolumeSum) * per_area;
+    if (full)
+      makeFull(index);
+  }
+};
+
+} // namespace
+
+void finish(Input const &in, Classes const &classes, StageState const &stage, Acceptors const &acceptors,
+            Bookings const &bookings)
+{
+  Kokkos::parallel_for("Harmos::remap::finish", RangePolicy(0, classes.num_interface),
+                       FinishFunctor{in, classes, stage, acceptors, bookings});
+}
+
+} // namespace RemapDetail
+} // namespace Harmos

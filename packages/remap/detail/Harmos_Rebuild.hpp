@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_REBUILD_HPP
+#define HARMOS_REBUILD_HPP
+
+#include <detail/Harmos_Acceptors.hpp>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+/// The new pairs, and where they come from.
+struct Rebuilt
+{
+  RemapResult result;
+  View<int *> candidate;  // num_pairs: candidate of the pairs of interface cells
+  View<double *> kinetic; // num_pairs: kinetic energy per mass that the remap carried; extent 0: not asked for
+};
+
+/// Pairs, records and centroids of time n+1, and the dof nodes. Rows and dof nodes are kept where no cell changes its
+/// set of materials.
+Rebuilt rebuild(Input const &in, Kinematics kinematics, Classes const &classes, StageState const &stage,
+                Acceptors const &acceptors);
+
+/// New velocities of the dof nodes: the mean of the corner velocities around, weighted by mass (a quarter of each
+/// pair's); as after stage 1 where nothing around took part in stage 2. Node conditions are imposed on what changed.
+///
+/// \return Impulse of the node conditions at owned nodes, sum m (v_imposed - v).
+Vector2 nodalVelocities(Input const &in, Classes const &classes, StageState const &stage, Acceptors const &acceptors,
+                        Rebuilt const &rebuilt);
+
+/// Kinetic energy of the deformable pairs of owned cells, with corner masses m / 4.
+double kineticEnergy(Input const &in, CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,
+                     View<double *[2]> const &velocity);
+
+/// Add what the remap carried of kinetic energy and the new velocities do not hold to the pairs' internal energy.
+/// \return The energy returned in owned cells.
+double returnKineticDefect(Input const &in, Rebuilt const &rebuilt);
+
+} // namespace RemapDetail
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_REMAP_SCENE_HPP
+#define HARMOS_REMAP_SCENE_HPP
+
+#include <Harmos_Clip.hpp>
+#include <Harmos_MeshBuilder.hpp>
+#include <Harmos_Moments.hpp>
+#include <Harmos_Remap.hpp>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace Harmos
+{
+namespace Test
+{
+
+template <class T>
+typename View<T>::HostMirror host(View<T> const &view)
+{
+  auto mirror = Kokkos::create_mirror_view(view);
+  Kokkos::deep_copy(mirror, view);
+  return mirror;
+}
+
+/// One component of a scene: a material (-1: void) on the inner side of the line that what is left of a cell is cut by.
+struct Layer
+{
+  int material;
+  std::function<Plane2(Vector2 const &centre)> line; // empty: all that is left
+};
+
+inline Plane2 lineThrough(Vector2 const &point, double angle)
+{
+  Vector2 const normal{std::cos(angle), std::sin(angle)};
+  return {normal, dot(normal, point)};
+}
+
+/// A disc's tangent-like line in the cell around `centre` (regions are cut by straight lines).
+inline Layer disc(int material, Vector2 const &middle, double radius)
+{
+  return {material, [=](Vector2 const &centre) {
+            Vector2 const n = normalised(centre - middle);
+            return Plane2{n, dot(n, middle) + radius};
+          }};
+}
+
+inline Layer halfPlane(int material, Vector2 const &point, double angle)
+{
+  return {material, [=](Vector2 const &) { return lineThrough(point, angle); }};
+}
+
+inline Layer rest(int material) { return {material, {}}; }
+
+using Scalar = std::function<double(int material, Vector2 const &x)>;
+using VectorField = std::function<Vector2(int material, Vector2 const &x)>;
+
+/// A whole single-rank input of the remap.
+struct Scene
+{
+  HostMesh host_mesh;
+  Mesh mesh;
+  View<Boundary *> boundary;
+  BoundaryConditions conditions;
+  View<Material *> materials;
+  CellMaterialPairs pairs;
+  NodeMaterialPairs dof_nodes;
+  PairState state;
+  FilledRegions regions;
+  View<double *[2]> half;
+  RigidRows rigid;
+  RemapOptions options;
+  RemapReport report;
+  Kinematics kinematics = Kinematics::Xfem;
+  double dt = 1.0;
+
+  Scene(int nx, int ny, double jitter, std::vector<Material> const &laws, BoundaryKind kind = BoundaryKind::SlipWall)
+  {
+    host_mesh = rectilinearMesh(gradedCoordinates(0.0, 1.0, nx, 1.0), gradedCoordinates(0.0, 1.0, ny, 1.0));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> shift(-jitter, jitter);
+    for (auto &x : host_mesh.node)
+    {
+      bool const inner = x[0] > 0.0 && x[0] < 1.0 && x[1] > 0.0 && x[1] < 1.0;
+      double const dx = shift(random) / nx, dy = shift(random) / ny;
+      if (inner)
+        x = {x[0] + dx, x[1] + dy};
+    }
+    setBoundaries(std::vector<Boundary>(4, [&] { Boundary b; b.kind = kind; return b; }()));
+    materials = View<Material *>("materials", laws.size());
+    auto const m = Kokkos::create_mirror_view(materials);
+    for (std::size_t i = 0; i < laws.size(); ++i)
+      m(i) = laws[i];
+    Kokkos::deep_copy(materials, m);
+  }
+
+  void setBoundaries(std::vector<Boundary> const &kinds)
+  {
+    mesh = buildMesh(host_mesh);
+    boundary = View<Boundary *>("boundary", kinds.size());
+    auto const b = Kokkos::create_mirror_view(boundary);
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      b(i) = kinds[i];
+    Kokkos::deep_copy(boundary, b);
+    conditions = buildBoundaryConditions(mesh, boundary);
+  }
+
+  /// Cut every cell into the layers, first one first; density and specific internal energy by field, sv = 1 / density.
+  void paint(std::vector<Layer> const &layers, Scalar const &density, Scalar const &energy)
+  {
+    std::vector<int> offset(1, 0), material, cell_of, region_first(mesh.num_cells, -1), mixed;
+    std::vector<Region> region, mixed_region;
+    for (int cell = 0; cell < mesh.num_cells; ++cell)
+    {
+      std::vector<std::pair<int, Region>> parts = cut(cell, layers);
+      double const whole = mesh.cell_area(cell);
+      bool const pure = parts.size() == 1 && area(parts[0].second) > whole * (1.0 - 1e-13);
+      if (!parts.empty() && !pure)
+      {
+        region_first[cell] = static_cast<int>(mixed_region.size());
+        mixed.push_back(cell);
+      }
+      for (auto const &part : parts)
+      {
+        material.push_back(part.first);
+        cell_of.push_back(cell);
+        region.push_back(part.second);
+        if (!pure)
+          mixed_region.push_back(part.second);
+      }
+      offset.push_back(static_cast<int>(material.size()));
+    }
+    setPairs(offset, material, cell_of);
+    setRegions(region_first, mixed, mixed_region);
+    setState(region, density, energy);
+    dof_nodes = buildDofNodes(mesh, kinematics, state.record, pairs);
+    state.velocity = View<double *[2]>("velocity", dof_nodes.num_dof_nodes);
+  }
+
+  void move(VectorField const &velocity)
+  {
+    half = View<double *[2]>("half", dof_nodes.num_dof_nodes);
+    for (int dof = 0; dof < dof_nodes.num_dof_nodes; ++dof)
+    {
+      int const node = dof_nodes.node(dof);
+      Vector2 v = velocity(dof_nodes.material(dof), {mesh.node_position(node, 0), mesh.node_position(node, 1)});
+      int const index = conditions.node_index(node);
+      if (index >= 0)
+        v = conditions.condition(index).apply(v);
+      half(dof, 0) = v[0];
+      half(dof, 1) = v[1];
+    }
+  }
+
+  RemapResult remapped()
+  {
+    report = RemapReport{};
+    return remap(mesh, kinematics, pairs, dof_nodes, state, regions, conditions, materials, half, dt, rigid, options,
+                 report);
+  }
+
+private:
+  std::vector<std::pair<int, Region>> cut(int cell, std::vector<Layer> const &layers) const
+  {
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    Vector2 const centre = 0.25 * (q[0] + q[1] + q[2] + q[3]);
+    Region left;
+    for (int k = 0; k < 4; ++k)
+      left.push(q[k]);
+    std::vector<std::pair<int, Region>> parts;
+    for (Layer const &layer : layers)
+    {
+      Region inside = left, outside;
+      if (layer.line)
+      {
+        Plane2 const line = layer.line(centre);
+        clip(left, line, inside);
+        clip(left, Plane2{-line.normal, -line.offset}, outside);
+        left = outside;
+      }
+      else
+        left.size = 0;
+      if (layer.material >= 0 && area(inside) > 1e-14 * mesh.cell_area(cell))
+        parts.push_back({layer.material, inside});
+      if (left.size < 3)
+        break;
+    }
+    std::sort(parts.begin(), parts.end(), [](auto const &a, auto const &b) { return a.first < b.first; });
+    return parts;
+  }
+
+  void setPairs(std::vector<int> const &offset, std::vector<int> const &material, std::vector<int> const &cell_of)
+  {
+    pairs.num_pairs = static_cast<int>(material.size());
+    pairs.offset = View<int *>("offset", offset.size());
+    pairs.material = View<int *>("material", material.size());
+    pairs.cell = View<int *>("cell", material.size());
+    for (std::size_t i = 0; i < offset.size(); ++i)
+      pairs.offset(i) = offset[i];
+    for (std::size_t i = 0; i < material.size(); ++i)
+    {
+      pairs.material(i) = material[i];
+      pairs.cell(i) = cell_of[i];
+    }
+  }
+
+  void setRegions(std::vector<int> const &first, std::vector<int> const &mixed, std::vector<Region> const &polygon)
+  {
+    regions.num_mixed_cells = static_cast<int>(mixed.size());
+    regions.mixed_cell = View<int *>("mixed", mixed.size());
+    regions.cell_region = View<int *>("first", first.size());
+    regions.polygon = View<Region *>("polygon", polygon.size());
+    for (std::size_t i = 0; i < mixed.size(); ++i)
+      regions.mixed_cell(i) = mixed[i];
+    for (std::size_t i = 0; i < first.size(); ++i)
+      regions.cell_region(i) = first[i];
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      regions.polygon(i) = polygon[i];
+  }
+
+  void setState(std::vector<Region> const &region, Scalar const &density, Scalar const &energy)
+  {
+    state.record = View<double *[num_pair_fields]>("record", pairs.num_pairs);
+    state.centroid = View<double *[2]>("centroid", pairs.num_pairs);
+    for (int pair = 0; pair < pairs.num_pairs; ++pair)
+    {
+      int const cell = pairs.cell(pair);
+      Moments<1> const m = moments<1>(region[pair], region[pair][0]);
+      Vector2 const centroid = region[pair][0] + m.centroid();
+      bool const pure = regions.cell_region(cell) < 0;
+      double const volume = pure ? mesh.cell_area(cell) : m.volume();
+      double const rho = density(pairs.material(pair), centroid);
+      state.record(pair, Mass) = rho * volume;
+      state.record(pair, VolumeFraction) = pure ? 1.0 : volume / mesh.cell_area(cell);
+      state.record(pair, SpecificVolume) = 1.0 / rho;
+      state.record(pair, InternalEnergy) = energy(pairs.material(pair), centroid);
+      state.record(pair, PlasticStrain) = 0.01 * (1.0 + centroid[0]);
+      state.record(pair, DeviatorXX) = 0.3 * std::sin(3.0 * centroid[1]);
+      state.record(pair, DeviatorYY) = 0.2 * centroid[0];
+      state.record(pair, DeviatorXY) = -0.1;
+      for (int d = 0; d < 2; ++d)
+        state.centroid(pair, d) = centroid[d];
+    }
+  }
+};
+
+/// Sums over all pairs: what a remap conserves.
+struct Totals
+{
+  double mass = 0.0, internal = 0.0, thermodynamic_volume = 0.0, plastic = 0.0, volume = 0.0, kinetic = 0.0;
+  Vector2 momentum = {0.0, 0.0};
+};
+
+inline Totals totals(Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,
+                     View<double *[2]> const &velocity, int material = -1)
+{
+  Totals t;
+  for (int pair = 0; pair < pairs.num_pairs; ++pair)
+  {
+    if (material >= 0 && pairs.material(pair) != material)
+      continue;
+    double const m = record(pair, Mass);
+    t.mass += m;
+    t.internal += m * record(pair, InternalEnergy);
+    t.thermodynamic_volume += m * record(pair, SpecificVolume);
+    t.plastic += m * record(pair, PlasticStrain);
+    t.volume += record(pair, VolumeFraction) * mesh.cell_area(pairs.cell(pair));
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = pairs.dof_node(pair, k);
+      Vector2 const v{velocity(dof, 0), velocity(dof, 1)};
+      t.momentum += 0.25 * m * v;
+      t.kinetic += 0.125 * m * dot(v, v);
+    }
+  }
+  return t;
+}
+
+/// Largest deviation of the sums of volume fractions from one over cells that satisfy a condition, and the largest sum.
+inline double largestSumOfFractions(Mesh const &mesh, RemapResult const &result)
+{
+  double largest = 0.0;
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+  {
+    double sum = 0.0;
+    for (int pair = result.pairs.offset(cell); pair < result.pairs.offset(cell + 1); ++pair)
+      sum += result.state.record(pair, VolumeFraction);
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+inline std::vector<Material> twoLaws()
+{
+  Material a, b;
+  a.density0 = 1.0;
+  a.strength = StrengthKind::Elastic;
+  b.density0 = 3.0;
+  b.strength = StrengthKind::Elastic;
+  return {a, b, a};
+}
+
+} // namespace Test
+} // namespace Harmos
+
+#endif

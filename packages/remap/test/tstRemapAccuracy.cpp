@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RemapScene.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+using namespace Harmos::Test;
+
+namespace
+{
+
+double field(int, Vector2 const &x)
+{
+  return 2.0 + std::sin(2.0 * Math::pi * x[0]) * std::cos(2.0 * Math::pi * x[1]);
+}
+
+/// Average over a cell by 3 x 3 Gauss points of the bilinear map.
+double cellAverage(Mesh const &mesh, int cell, std::function<double(Vector2 const &)> const &f)
+{
+  Quadrilateral const q = cellQuadrilateral(mesh, cell);
+  double const point[3] = {0.5 - 0.5 * std::sqrt(0.6), 0.5, 0.5 + 0.5 * std::sqrt(0.6)};
+  double const weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  double sum = 0.0, volume = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+    {
+      double N[4];
+      shapeFunctions({point[i], point[j]}, N);
+      Vector2 const x = N[0] * q[0] + N[1] * q[1] + N[2] * q[2] + N[3] * q[3];
+      Vector2 const a = (1.0 - point[j]) * (q[1] - q[0]) + point[j] * (q[2] - q[3]);
+      Vector2 const b = (1.0 - point[i]) * (q[3] - q[0]) + point[i] * (q[2] - q[1]);
+      double const w = weight[i] * weight[j] * cross(a, b);
+      sum += w * f(x);
+      volume += w;
+    }
+  return sum / volume;
+}
+
+/// Area-weighted error of a remap of cell averages of the field on the moved mesh onto the mesh.
+double densityError(int n, int order, bool intersect)
+{
+  Scene scene(n, n, 0.0, twoLaws(), intersect ? BoundaryKind::ContactWall : BoundaryKind::SlipWall);
+  scene.options.order = order;
+  scene.paint({rest(0)}, field, field);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shift(-0.25 / n, 0.25 / n);
+  scene.move([&](int, Vector2 const &x) {
+    Vector2 const v{shift(random), shift(random)};
+    bool const inner = x[0] > 0.0 && x[0] < 1.0 && x[1] > 0.0 && x[1] < 1.0;
+    return inner ? v : Vector2{0.0, 0.0};
+  });
+  for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+  {
+    Mesh moved = scene.mesh;
+    Quadrilateral const q = cellQuadrilateral(scene.mesh, scene.pairs.cell(pair));
+    View<double *[2]> const x("x", 4);
+    View<int *[4]> const node("node", 1);
+    Quadrilateral moved_cell = q;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = scene.pairs.dof_node(pair, k);
+      moved_cell[k] += Vector2{scene.half(dof, 0), scene.half(dof, 1)};
+      x(k, 0) = moved_cell[k][0];
+      x(k, 1) = moved_cell[k][1];
+      node(0, k) = k;
+    }
+    moved.node_position = x;
+    moved.cell_node = node;
+    scene.state.record(pair, Mass) = area(moved_cell) * cellAverage(moved, 0, [](Vector2 const &p) { return field(0, p); });
+  }
+  RemapResult const result = scene.remapped();
+  double error = 0.0;
+  for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+  {
+    int const cell = result.pairs.cell(pair);
+    double const exact = cellAverage(scene.mesh, cell, [](Vector2 const &p) { return field(0, p); });
+    error += std::fabs(result.state.record(pair, Mass) - exact * scene.mesh.cell_area(cell));
+  }
+  return error;
+}
+
+double uniformNoise(unsigned &seed)
+{
+  seed = seed * 1664525u + 1013904223u;
+  return static_cast<double>(seed >> 8) / 16777216.0;
+}
+
+} // namespace
+
+TEST(Accuracy, sweptFluxes_secondOrderOnRandomlyMovedMesh)
+{
+  double const coarse = densityError(32, 2, false), fine = densityError(64, 2, false);
+  double const first = densityError(64, 1, false);
+  RecordProperty("error32", std::to_string(coarse));
+  std::printf("swept: 32 %.3e 64 %.3e slope %.2f; first order 64 %.3e\n", coarse, fine, std::log2(coarse / fine), first);
+  EXPECT_GT(std::log2(coarse / fine), 1.7);
+  EXPECT_LT(fine, 0.1 * first);
+}
+
+TEST(Accuracy, linearDensity_remapsExactlyAwayFromItsExtrema)
+{
+  for (BoundaryKind kind : {BoundaryKind::SlipWall, BoundaryKind::ContactWall}) // swept; intersected at the boundary
+  {
+    int const n = 8;
+    Scene scene(n, n, 0.2, twoLaws(), kind);
+    auto const linear = [](int, Vector2 const &x) { return 2.0 + x[0] - 0.5 * x[1]; };
+    scene.paint({rest(0)}, linear, linear);
+    scene.move([&](int, Vector2 const &x) {
+      return Vector2{0.04 * x[0] * (1.0 - x[0]), 0.04 * x[1] * (1.0 - x[1])};
+    });
+    for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+    {
+      Quadrilateral q = cellQuadrilateral(scene.mesh, scene.pairs.cell(pair));
+      for (int k = 0; k < 4; ++k)
+      {
+        int const dof = scene.pairs.dof_node(pair, k);
+        q[k] += Vector2{scene.half(dof, 0), scene.half(dof, 1)};
+      }
+      Moments<1> const m = moments<1>(q, q[0]);
+      scene.state.record(pair, Mass) = m.volume() * linear(0, q[0] + m.centroid());
+    }
+    RemapResult const result = scene.remapped();
+    double worst = 0.0;
+    for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    {
+      int const cell = result.pairs.cell(pair);
+      Quadrilateral const q = cellQuadrilateral(scene.mesh, cell);
+      Moments<1> const m = moments<1>(q, q[0]);
+      Vector2 const c = q[0] + m.centroid();
+      double const rim = 2.2 / n;
+      if (c[0] < rim || c[0] > 1.0 - rim || c[1] < rim || c[1] > 1.0 - rim)
+        continue;
+      worst = std::max(worst, std::fabs(result.state.record(pair, Mass) / m.volume() - linear(0, c)));
+    }
+    EXPECT_LT(worst, 1e-5); // the swept centroid is exact to the third order of the motion
+  }
+}
+
+TEST(Bounds, randomDensityAndPrimitives_stayWithinTheirRange)
+{
+  for (int layout : {0, 1, 2})
+  {
+    Scene scene(16, 16, 0.2, twoLaws());
+    scene.options.merge_below = 0.0;
+    auto const one = [](int, Vector2 const &) { return 1.0; };
+    std::vector<std::vector<Layer>> const layers = {
+        {rest(0)}, {disc(0, {0.5, 0.5}, 0.3)}, {disc(0, {0.45, 0.5}, 0.3), rest(1)}};
+    scene.paint(layers[layout], one, one);
+    unsigned seed = 5;
+    scene.move([&](int, Vector2 const &x) {
+      double const s = x[0] * (1.0 - x[0]) * x[1] * (1.0 - x[1]) > 0.0 ? 0.012 : 0.0;
+      return Vector2{s * (2.0 * uniformNoise(seed) - 1.0), s * (2.0 * uniformNoise(seed) - 1.0)};
+    });
+    for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+    {
+      int const cell = scene.pairs.cell(pair);
+      Region region = scene.regions.region(scene.mesh, scene.pairs, pair);
+      Quadrilateral const q = cellQuadrilateral(scene.mesh, cell);
+      for (int i = 0; i < region.size; ++i)
+      {
+        double N[4];
+        shapeFunctionsAt(q, region[i], N);
+        Vector2 u{0.0, 0.0};
+        for (int k = 0; k < 4; ++k)
+          u += N[k] * Vector2{scene.half(scene.pairs.dof_node(pair, k), 0), scene.half(scene.pairs.dof_node(pair, k), 1)};
+        region[i] += u;
+      }
+      scene.state.record(pair, Mass) = area(region) * (1.0 + 9.0 * uniformNoise(seed));
+      for (int f : {SpecificVolume, InternalEnergy, PlasticStrain})
+        scene.state.record(pair, f) = uniformNoise(seed);
+    }
+    RemapResult const result = scene.remapped();
+    for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    {
+      double const volume = result.state.record(pair, VolumeFraction) * scene.mesh.cell_area(result.pairs.cell(pair));
+      if (scene.report.overlap_volume == 0.0 && scene.report.closed_volume == 0.0)
+      {
+        EXPECT_GE(result.state.record(pair, Mass) / volume, 1.0 - 1e-12);
+        EXPECT_LE(result.state.record(pair, Mass) / volume, 10.0 + 1e-11);
+      }
+      for (int f : {SpecificVolume, InternalEnergy, PlasticStrain})
+      {
+        EXPECT_GE(result.state.record(pair, f), 0.0);
+        EXPECT_LE(result.state.record(pair, f), 1.0 + 1e-14);
+      }
+    }
+    for (int d = 0; d < 2; ++d)
+    {
+      double low = 0.0, high = 0.0, new_low = 0.0, new_high = 0.0;
+      for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+      {
+        low = std::min(low, scene.half(dof, d));
+        high = std::max(high, scene.half(dof, d));
+      }
+      for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
+      {
+        new_low = std::min(new_low, result.state.velocity(dof, d));
+        new_high = std::max(new_high, result.state.velocity(dof, d));
+      }
+      EXPECT_GE(new_low, low * (1.0 + 1e-12));
+      EXPECT_LE(new_high, high * (1.0 + 1e-12));
+    }
+  }
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RemapScene.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+using namespace Harmos::Test;
+
+namespace
+{
+
+double one(int, Vector2 const &) { return 1.0; }
+Vector2 right(int, Vector2 const &) { return {0.01, 0.0}; }
+
+double leastFraction(RemapResult const &result)
+{
+  double least = 1.0;
+  for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    least = std::min(least, result.state.record(pair, VolumeFraction));
+  return least;
+}
+
+void freeSides(Scene &scene)
+{
+  Boundary out;
+  out.kind = BoundaryKind::Outflow;
+  scene.setBoundaries({out, out, out, out});
+}
+
+/// A bar 0.2 < x < 0.5 + excess on a 10 x 1 mesh: its front has just entered the cell at 0.5.
+Scene barWithSliver(double excess)
+{
+  Scene scene(10, 1, 0.0, twoLaws());
+  freeSides(scene);
+  Layer const left{-1, [](Vector2 const &) { return lineThrough({0.2, 0.5}, 0.0); }};
+  scene.paint({left, halfPlane(0, {0.5 + excess, 0.5}, 0.0)}, one, one);
+  return scene;
+}
+
+} // namespace
+
+TEST(Policies, sliverOf1e10_survivesWithoutMerging)
+{
+  Scene scene = barWithSliver(0.0);
+  scene.options.merge_below = 0.0;
+  scene.move([](int, Vector2 const &) { return Vector2{1e-11, 0.0}; });
+  RemapResult const result = scene.remapped();
+  EXPECT_NEAR(leastFraction(result), 1e-10, 1e-15);
+  EXPECT_EQ(result.pairs.num_pairs, 4);
+  Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
+  EXPECT_NEAR(t.mass, 0.3, 1e-15);
+  EXPECT_NEAR(t.momentum[0], 0.3e-11, 1e-25);
+}
+
+TEST(Policies, fragmentBelowThreshold_mergesWithoutLoss)
+{
+  Scene scene = barWithSliver(0.0);
+  scene.move([](int, Vector2 const &) { return Vector2{1e-8, 0.0}; });
+  RemapResult const result = scene.remapped();
+  EXPECT_EQ(scene.report.merged, 1);
+  EXPECT_EQ(result.pairs.num_pairs, 3);
+  Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
+  EXPECT_NEAR(t.mass, 0.3, 1e-15);
+  EXPECT_NEAR(t.internal, 0.3, 1e-15);
+  EXPECT_NEAR(t.momentum[0], 0.3e-8, 1e-22);
+  EXPECT_NEAR(scene.report.overlap_volume, 1e-8, 1e-14);
+}
+
+TEST(Policies, fragmentWithoutNeighbour_isKept)
+{
+  Scene scene(3, 3, 0.0, twoLaws());
+  freeSides(scene);
+  scene.paint({halfPlane(0, {1e-5, 0.0}, Math::pi / 4.0)}, one, one);
+  scene.move([](int, Vector2 const &) { return Vector2{0.01, 0.01}; });
+  RemapResult const result = scene.remapped();
+  ASSERT_EQ(result.pairs.num_pairs, 1);
+  EXPECT_EQ(scene.report.merged, 0);
+  EXPECT_NEAR(result.state.record(0, Mass), scene.state.record(0, Mass), 1e-22);
+}
+
+TEST(Policies, overlappingMaterials_areScaledAndBooked)
+{
+  Scene scene(4, 1, 0.0, twoLaws());
+  scene.paint({halfPlane(0, {0.375, 0.0}, 0.0), rest(1)}, one, one);
+  scene.move([](int material, Vector2 const &x) {
+    return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{0.02, 0.0} : Vector2{0.0, 0.0};
+  });
+  RemapResult const result = scene.remapped();
+  EXPECT_NEAR(scene.report.overlap_volume, 0.02, 1e-14);
+  EXPECT_NEAR(largestSumOfFractions(scene.mesh, result), 1.0, 1e-15);
+  Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
+  EXPECT_NEAR(t.mass, 1.0, 1e-15);
+  EXPECT_NEAR(t.volume, 1.0, 1e-15);
+}
+
+TEST(Policies, spuriousGap_isClosedWhenSmallAndBookedWhenLarge)
+{
+  for (double gap : {1e-4, 0.02})
+  {
+    Scene scene(4, 1, 0.0, twoLaws());
+    scene.paint({halfPlane(0, {0.375, 0.0}, 0.0), rest(1)}, one, one);
+    scene.move([=](int material, Vector2 const &x) {
+      return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{-gap, 0.0} : Vector2{0.0, 0.0};
+    });
+    RemapResult const result = scene.remapped();
+    bool const small = gap < 1e-3;
+    EXPECT_NEAR(scene.report.closed_volume, small ? gap : 0.0, 1e-14);
+    EXPECT_NEAR(scene.report.void_volume, small ? 0.0 : gap, 1e-14);
+    EXPECT_EQ(scene.report.overlap_volume, 0.0);
+  }
+}
+
+TEST(Policies, rigidBody_takesItsExactVolumeAndPushesNothingOut)
+{
+  std::vector<Material> laws = twoLaws();
+  laws[1].rigid_body = 0;
+  Scene scene(4, 4, 0.0, laws);
+  scene.paint({halfPlane(0, {0.4, 0.0}, 0.0), rest(1)}, one, one);
+  scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
+  // the body has advanced to x = 0.39
+  scene.rigid.offset = View<int *>("offset", scene.mesh.num_cells + 1);
+  scene.rigid.material = View<int *>("material", 12);
+  scene.rigid.volume_fraction = View<double *>("fraction", 12);
+  scene.rigid.centroid = View<double *[2]>("centroid", 12);
+  int r = 0;
+  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
+  {
+    int const column = cell % 4;
+    if (column > 0)
+    {
+      scene.rigid.material(r) = 1;
+      scene.rigid.volume_fraction(r) = column == 1 ? 0.44 : 1.0;
+      ++r;
+    }
+    scene.rigid.offset(cell + 1) = r;
+  }
+  RemapResult const result = scene.remapped();
+  EXPECT_NEAR(scene.report.overlap_volume, 0.01, 1e-14);
+  EXPECT_LE(largestSumOfFractions(scene.mesh, result), 1.0 + 1e-15);
+  EXPECT_NEAR(totals(scene.mesh, result.pairs, result.state.record, result.state.velocity, 0).mass, 0.4, 1e-15);
+  EXPECT_NEAR(totals(scene.mesh, result.pairs, result.state.record, result.state.velocity, 1).volume, 0.61, 1e-14);
+  for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
+    EXPECT_EQ(result.state.velocity(dof, 0), 0.0);
+}
+
+TEST(Policies, emptiedCell_losesItsPairAndDofNodes)
+{
+  Scene scene = barWithSliver(0.005);
+  scene.move([](int, Vector2 const &) { return Vector2{-0.02, 0.0}; });
+  RemapResult const result = scene.remapped();
+  EXPECT_EQ(result.pairs.cell_kind(5), VoidCell);
+  EXPECT_EQ(result.pairs.cell_kind(3), PureCell);
+  EXPECT_EQ(result.pairs.cell_kind(1), MixedCell);
+  for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    for (int k = 0; k < 4; ++k)
+      EXPECT_EQ(result.dof_nodes.node(result.pairs.dof_node(pair, k)), scene.mesh.cell_node(result.pairs.cell(pair), k));
+  (void)right;
+}
