@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_BodyProjection.hpp>
+#include <Harmos_RowSums.hpp>
 
 namespace Harmos
 {
@@ -7,63 +8,43 @@ namespace Harmos
 namespace
 {
 
-/// Rank-independent sum over own rows of a term of (row).
-template <class Term>
-double rowsSum(ContactSystem const &s, Exchange const &exchange, Term const &term)
-{
-  double largest = 0.0;
-  View<int *> const own = s.own;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::largestTerm", RangePolicy(0, s.num_own),
-      KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, Math::fabs(term(own(i)))); }, Kokkos::Max<double>(largest));
-  largest = exchange.max(s.num_own > 0 ? largest : 0.0);
-  ReproducibleSum const sum = reproducibleSum(largest, s.num_multipliers);
-  long long quanta = 0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::sumTerms", RangePolicy(0, s.num_own),
-      KOKKOS_LAMBDA(int i, long long &q) { q += sum.quanta(term(own(i))); }, quanta);
-  exchange.sum(&quanta, 1);
-  return sum.value(quanta);
-}
-
-/// Impulse that the step gives component c of a body.
-struct StepImpulse
+/// What each own row adds to Newton's system of one body: impulse J^T (p(u) - y) and stiffness J^T D^-1 J of active
+/// rows (entries 00, 10, 11, 20, 21, 22), in the body's scaled components.
+///
+/// Rows between two free bodies count twice in the stiffness: that bounds what leaving out their coupling neglects.
+struct StepTerms
 {
   ContactSystem s;
   View<double *[2]> y, residual;
   View<double *[3]> u;
-  int body, c;
+  View<double *[3]> impulse;   // num_own
+  View<double *[6]> stiffness; // num_own
+  int body;
 
-  KOKKOS_INLINE_FUNCTION double operator()(int row) const
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
-    double sum = 0.0;
-    for (int side = 0; side < 2; ++side)
-      if (s.free_body(row, side) == body)
-        for (int k = 0; k < s.directions(row); ++k)
-          sum += s.bodyJacobian(row, side, k, c) * (projectedImpulse(s, y, residual, u, row, k) - y(row, k));
-    return sum;
-  }
-};
-
-/// Entry (c, d) of the active rows' J^T D^-1 J of one body; rows between two free bodies count twice, which bounds what
-/// leaving out the coupling between the bodies neglects.
-struct StepStiffness
-{
-  ContactSystem s;
-  View<double *[2]> y, residual;
-  View<double *[3]> u;
-  int body, c, d;
-
-  KOKKOS_INLINE_FUNCTION double operator()(int row) const
-  {
+    int const row = s.own(i);
+    double f[3] = {}, K[6] = {};
     double const factor = s.free_body(row, 0) >= 0 && s.free_body(row, 1) >= 0 ? 2.0 : 1.0;
-    double sum = 0.0;
     for (int side = 0; side < 2; ++side)
-      if (s.free_body(row, side) == body)
-        for (int k = 0; k < s.directions(row); ++k)
-          if (s.tied(row) || projectedImpulse(s, y, residual, u, row, k) > 0.0)
-            sum += factor * s.bodyJacobian(row, side, k, c) * s.bodyJacobian(row, side, k, d) / s.diagonal(row, k);
-    return sum;
+      for (int k = 0; s.free_body(row, side) == body && k < s.directions(row); ++k)
+      {
+        double const p = projectedImpulse(s, y, residual, u, row, k);
+        double const compliance = s.tied(row) || p > 0.0 ? factor / s.diagonal(row, k) : 0.0;
+        double J[3];
+        for (int c = 0; c < 3; ++c)
+          J[c] = s.bodyJacobian(row, side, k, c) / s.body_scale(body, c);
+        for (int c = 0, e = 0; c < 3; ++c)
+        {
+          f[c] += J[c] * (p - y(row, k));
+          for (int d = 0; d <= c; ++d, ++e)
+            K[e] += compliance * J[c] * J[d];
+        }
+      }
+    for (int c = 0; c < 3; ++c)
+      impulse(i, c) = f[c];
+    for (int e = 0; e < 6; ++e)
+      stiffness(i, e) = K[e];
   }
 };
 
@@ -86,31 +67,23 @@ void solve3(double K[3][3], double b[3])
   }
 }
 
-/// Newton's step of one body, added to `next`. Returns the largest part of a component that it changes.
-double newtonStep(ContactSystem const &s, StepImpulse impulse, double damping, Exchange const &exchange,
-                  HostView<double *[3]> const &inverse, HostView<double *[3]> const &next)
+/// Newton's step of one body, in scaled components (velocities).
+std::array<double, 3> newtonStep(StepTerms const &terms, Exchange const &exchange, HostView<double *[3]> const &inverse,
+                                 HostView<double *[3]> const &scale, HostView<double *[3]> const &now)
 {
-  int const body = impulse.body;
+  Kokkos::parallel_for("Harmos::constrain::bodyStepTerms", RangePolicy(0, terms.s.num_own), terms);
+  auto const f = reproducibleColumnSums(terms.impulse, terms.s.num_multipliers, exchange);
+  auto const stiffness = reproducibleColumnSums(terms.stiffness, terms.s.num_multipliers, exchange);
+  double const mass = 1.0 / inverse(terms.body, 0); // of every scaled component
   double K[3][3], b[3];
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0, e = 0; c < 3; ++c)
   {
-    impulse.c = c;
-    b[c] = rowsSum(s, exchange, impulse) - next(body, c) / inverse(body, c);
-    for (int d = 0; d <= c; ++d)
-    {
-      StepStiffness const stiffness{s, impulse.y, impulse.residual, impulse.u, body, c, d};
-      K[c][d] = K[d][c] = rowsSum(s, exchange, stiffness) + (c == d ? 1.0 / inverse(body, c) : 0.0);
-    }
+    b[c] = f[static_cast<std::size_t>(c)] - mass * scale(terms.body, c) * now(terms.body, c);
+    for (int d = 0; d <= c; ++d, ++e)
+      K[c][d] = K[d][c] = stiffness[static_cast<std::size_t>(e)] + (c == d ? mass : 0.0);
   }
   solve3(K, b);
-  double change = 0.0;
-  for (int c = 0; c < 3; ++c)
-  {
-    next(body, c) += damping * b[c];
-    if (b[c] != 0.0)
-      change = Math::max(change, Math::fabs(b[c]) / Math::max(Math::fabs(b[c]), Math::fabs(next(body, c))));
-  }
-  return change;
+  return {b[0], b[1], b[2]};
 }
 
 } // namespace
@@ -118,23 +91,32 @@ double newtonStep(ContactSystem const &s, StepImpulse impulse, double damping, E
 void projectBodies(ContactSystem const &system, View<double *[2]> const &y, View<double *[2]> const &residual,
                    Exchange const &exchange, View<double *[3]> const &u)
 {
-  Kokkos::deep_copy(u, 0.0);
   if (system.num_free == 0)
     return;
-  auto const next = Kokkos::create_mirror(u);
+  constexpr double negligible = 1e-12; // of the largest step
+  Kokkos::deep_copy(u, 0.0);
+  auto const now = Kokkos::create_mirror(u);
   auto const inverse = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), system.body_inverse_mass);
-  Kokkos::deep_copy(next, 0.0);
+  auto const scale = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), system.body_scale);
+  View<double *[3]> const impulse("Harmos::constrain::step_impulse", system.num_own);
+  View<double *[6]> const stiffness("Harmos::constrain::step_stiffness", system.num_own);
+  double largest = 0.0;
   for (int step = 0; step < 40; ++step)
   {
-    double change = 0.0;
+    double const damping = step < 10 ? 1.0 : 0.5;
+    double size = 0.0;
     for (int body = 0; body < system.num_free; ++body)
     {
-      double const damping = step < 10 ? 1.0 : 0.5;
-      change =
-          Math::max(change, newtonStep(system, {system, y, residual, u, body, 0}, damping, exchange, inverse, next));
+      auto const b = newtonStep({system, y, residual, u, impulse, stiffness, body}, exchange, inverse, scale, now);
+      for (int c = 0; c < 3; ++c)
+      {
+        size = Math::max(size, Math::fabs(b[static_cast<std::size_t>(c)]));
+        now(body, c) += damping * b[static_cast<std::size_t>(c)] / scale(body, c);
+      }
     }
-    Kokkos::deep_copy(u, next);
-    if (change < 1e-13)
+    Kokkos::deep_copy(u, now);
+    largest = Math::max(largest, size);
+    if (size <= negligible * largest)
       return;
   }
 }

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactSystem.hpp>
+#include <Harmos_RowSums.hpp>
 
 namespace Harmos
 {
 
 namespace
 {
+
+/// Dof node of a row's slot: 0..3 of side a, 4..7 of side b. (GCC 12 miscompiles the plain conditional in these loops.)
+KOKKOS_INLINE_FUNCTION int dofOf(ContactRow const &row, int slot)
+{
+  int const *const side = slot < 4 ? row.dof_a : row.dof_b;
+  return side[slot & 3];
+}
+
 
 /// Number the dof nodes that rows touch and list the rows at each, in key order.
 void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &system)
@@ -17,7 +26,7 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
       "Harmos::constrain::countUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
         {
-          int const dof = k < 4 ? row(r).dof_a[k] : row(r).dof_b[k - 4];
+          int const dof = dofOf(row(r), k);
           if (dof >= 0)
             Kokkos::atomic_increment(&uses(dof));
         }
@@ -56,7 +65,7 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
       "Harmos::constrain::fillUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
         {
-          int const dof = k < 4 ? row(r).dof_a[k] : row(r).dof_b[k - 4];
+          int const dof = dofOf(row(r), k);
           compact(r, k) = dof >= 0 ? place(dof) : -1;
           if (dof >= 0)
             item(offset(place(dof)) + Kokkos::atomic_fetch_add(&filled(place(dof)), 1)) = 8 * r + k;
@@ -109,14 +118,19 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
   }
   Kokkos::deep_copy(number, host);
   system.body_inverse_mass = View<double *[3]>("Harmos::constrain::body_inverse_mass", system.num_free);
+  system.body_scale = View<double *[3]>("Harmos::constrain::body_scale", system.num_free);
   auto const inverse = Kokkos::create_mirror_view(system.body_inverse_mass);
+  auto const scale = Kokkos::create_mirror_view(system.body_scale);
   for (int f = 0; f < system.num_free; ++f)
   {
     RigidBody const &body = bodies[static_cast<std::size_t>(system.free_number[static_cast<std::size_t>(f)])];
     inverse(f, 0) = inverse(f, 1) = body.inverseMass();
     inverse(f, 2) = body.inverseInertia();
+    scale(f, 0) = scale(f, 1) = 1.0;
+    scale(f, 2) = std::sqrt(body.inertia / body.mass);
   }
   Kokkos::deep_copy(system.body_inverse_mass, inverse);
+  Kokkos::deep_copy(system.body_scale, scale);
   return number;
 }
 
@@ -275,26 +289,24 @@ KOKKOS_INLINE_FUNCTION double bodyImpulse(ContactSystem const &s, View<double *[
 void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &impulse, Exchange const &exchange,
                         View<double *[3]> const &change)
 {
+  if (system.num_free == 0)
+    return;
   ContactSystem const s = system;
   auto const host = Kokkos::create_mirror_view(change);
   auto const inverse = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.body_inverse_mass);
+  auto const scale = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.body_scale);
+  View<double *[3]> const term("Harmos::constrain::body_term", s.num_own);
   for (int body = 0; body < s.num_free; ++body)
+  {
+    Kokkos::parallel_for(
+        "Harmos::constrain::bodyImpulses", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+          for (int c = 0; c < 3; ++c)
+            term(i, c) = bodyImpulse(s, impulse, s.own(i), body, c) / s.body_scale(body, c);
+        });
+    auto const sum = reproducibleColumnSums(term, s.num_multipliers, exchange);
     for (int c = 0; c < 3; ++c)
-    {
-      double largest = 0.0;
-      Kokkos::parallel_reduce(
-          "Harmos::constrain::largestBodyImpulse", RangePolicy(0, s.num_own),
-          KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, Math::fabs(bodyImpulse(s, impulse, s.own(i), body, c))); },
-          Kokkos::Max<double>(largest));
-      largest = exchange.max(s.num_own > 0 ? largest : 0.0);
-      ReproducibleSum const sum = reproducibleSum(largest, s.num_multipliers);
-      long long quanta = 0;
-      Kokkos::parallel_reduce(
-          "Harmos::constrain::sumBodyImpulse", RangePolicy(0, s.num_own),
-          KOKKOS_LAMBDA(int i, long long &q) { q += sum.quanta(bodyImpulse(s, impulse, s.own(i), body, c)); }, quanta);
-      exchange.sum(&quanta, 1);
-      host(body, c) = inverse(body, c) * sum.value(quanta);
-    }
+      host(body, c) = inverse(body, c) * scale(body, c) * sum[static_cast<std::size_t>(c)];
+  }
   Kokkos::deep_copy(change, host);
 }
 

@@ -36,6 +36,7 @@ struct ContactSystem
   Rows rows_of;                    // compact dof -> 8 * row + corner, ascending
 
   View<double *[3]> body_inverse_mass; // num_free: 1/m, 1/m, 1/I
+  View<double *[3]> body_scale;        // num_free: 1, 1, radius of gyration: makes the components alike
   std::vector<int> free_number;        // num_free: number of the body
 
   KOKKOS_INLINE_FUNCTION int directions(int row) const { return 1 + tied(row); }

@@ -10,22 +10,41 @@ namespace
 
 constexpr double largest_part_of_altitude = 0.9;
 
-/// Largest dt |v| / (0.9 altitude) of the dof nodes.
-double largestCrossing(NodeMaterialPairs const &dof_nodes, double dt, LagrangeWork const &work)
+/// Largest (dt |v| / (0.9 altitude))^2: of all local dof nodes, and of the owned ones. The outermost halo lacks forces,
+/// so that only the latter may steer; but every rank slows its copies of the others.
+struct Crossing
+{
+  double local = 0.0;
+  double owned = 0.0;
+
+  KOKKOS_INLINE_FUNCTION void join(Crossing const &other)
+  {
+    local = Math::max(local, other.local);
+    owned = Math::max(owned, other.owned);
+  }
+};
+
+Crossing largestCrossing(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, double dt, LagrangeWork const &work)
 {
   auto const half = work.half;
   auto const altitude = work.node_altitude;
-  double squared = 0.0;
+  auto const node_owned = mesh.node_owned;
+  Crossing result;
   Kokkos::parallel_reduce(
       "Harmos::lagrange::largestCrossing", RangePolicy(0, dof_nodes.num_dof_nodes),
-      KOKKOS_LAMBDA(int dof, double &largest) {
-        double const limit = largest_part_of_altitude * altitude(dof_nodes.node(dof));
+      KOKKOS_LAMBDA(int dof, Crossing &largest) {
+        int const node = dof_nodes.node(dof);
+        double const limit = largest_part_of_altitude * altitude(node);
         double const travel2 = dt * dt * (half(dof, 0) * half(dof, 0) + half(dof, 1) * half(dof, 1));
-        if (travel2 > largest * (limit * limit))
-          largest = travel2 / (limit * limit);
+        if (travel2 <= largest.owned * (limit * limit))
+          return;
+        double const squared = travel2 / (limit * limit);
+        largest.local = Math::max(largest.local, squared);
+        if (node_owned(node))
+          largest.owned = Math::max(largest.owned, squared);
       },
-      Kokkos::Max<double>(squared));
-  return std::sqrt(squared);
+      detail::JoinReducer<Crossing>(result));
+  return result;
 }
 
 /// Velocities that change, everything by gathering: no dof node writes another's.
@@ -192,8 +211,9 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
                          LagrangeOptions const &options, double dt, LagrangeWork &work)
 {
   TravelReport report;
-  report.largest_ratio = largestCrossing(dof_nodes, dt, work);
-  if (!(report.largest_ratio > 1.0))
+  Crossing const crossing = largestCrossing(mesh, dof_nodes, dt, work);
+  report.largest_ratio = std::sqrt(crossing.owned);
+  if (!(crossing.local > 1.0))
     return report;
   View<int *> const slowed_with("Harmos::lagrange::slowed_with", dof_nodes.num_dof_nodes);
   SlowLight const slow{mesh,          pairs,     dof_nodes,          materials,   boundary, state.record,
@@ -202,7 +222,7 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
       "Harmos::lagrange::markLight", RangePolicy(0, dof_nodes.num_dof_nodes),
       KOKKOS_LAMBDA(int dof) { slowed_with(dof) = slow.heaviestPair(dof); });
   report = slowMarked(slow, state.velocity, work);
-  report.largest_ratio = largestCrossing(dof_nodes, dt, work);
+  report.largest_ratio = std::sqrt(largestCrossing(mesh, dof_nodes, dt, work).owned);
   return report;
 }
 

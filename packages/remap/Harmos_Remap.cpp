@@ -44,11 +44,12 @@ StageState sweepPureCells(Input const &in, Classes const &classes, RemapWork &wo
     return stage;
   }
   provide(work.geometry, "geometry", in.mesh.num_cells);
+  provide(work.moved_record, "movedRecord", in.mesh.num_cells);
   provide(work.flux, "flux", in.mesh.num_cells);
   provide(work.corner_increment, "cornerIncrement", in.mesh.num_cells);
   stage.velocity = scratch<double *[2]>("velocity", in.dof_nodes.num_dof_nodes);
-  sweptGeometry(in, classes, work);
-  sweptFluxes(in, classes, before, work);
+  sweptGeometry(in, classes, before, work);
+  sweptFluxes(in, classes, work);
   sweptGather(in, classes, before, work, stage.record, stage.kinetic);
   sweptMomentum(in, classes, work, stage.record, stage.velocity);
   return stage;

@@ -12,22 +12,23 @@ namespace Harmos
 
 struct RemapOptions
 {
-  int order = 2;                    // 1 or 2
-  double merge_below = 1e-6;        // fragments below this volume fraction merge with same-material neighbours; 0: never
-  double close_void_below = 1e-3;   // spurious void below this part of a cell, with no void around, is closed
+  int order = 2;                  // 1 or 2
+  double merge_below = 1e-6;      // fragments below this volume fraction merge with same-material neighbours; 0: never
+  double close_void_below = 1e-8; // spurious void below this part of a cell, with no void around, is closed
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair
 };
 
 /// Sums over owned cells of one remap, for the history.
 struct RemapReport
 {
-  double overlap_volume = 0.0;  // overlap of moved regions that was scaled away (>= 0) [length^2]
-  double void_volume = 0.0;     // spurious void opened and not closed [length^2]
-  double closed_volume = 0.0;   // spurious void that was closed
-  long long merged = 0;         // fragments merged
+  double overlap_volume = 0.0;                     // overlap of moved regions that was scaled away (>= 0) [length^2]
+  double void_volume = 0.0;                        // spurious void opened and not closed [length^2]
+  double closed_volume = 0.0;                      // spurious void that was closed
+  long long merged = 0;                            // fragments merged
   double outflow_mass = 0.0, outflow_energy = 0.0; // kinetic + internal, net of inflow
   Vector2 outflow_momentum = {0.0, 0.0};
-  Vector2 wall_impulse = {0.0, 0.0}; // by node conditions on the bodies when the remapped velocities are projected [N s/m]
+  Vector2 wall_impulse = {0.0,
+                          0.0}; // by node conditions on the bodies when the remapped velocities are projected [N s/m]
   double kinetic_loss = 0.0;    // before - after - outflow, less what became heat
   long long failures = 0;       // owned donors whose overlays do not add up to 1e-10 of their volume
   int first_failed_cell = -1;
@@ -44,7 +45,7 @@ struct RemapResult
 /// The rigid bodies' exact share of the cells at their new pose: compressed rows over cells, materials ascending.
 struct RigidRows
 {
-  View<int *> offset;             // num_cells + 1; extent 0: no rigid bodies
+  View<int *> offset; // num_cells + 1; extent 0: no rigid bodies
   View<int *> material;
   View<double *> volume_fraction; // > 0, of the cell
   View<double *[2]> centroid;     // of the body's part of the cell [length]
@@ -53,7 +54,8 @@ struct RigidRows
 /// Work arrays that a caller may keep from cycle to cycle (fresh pages cost as much as a kernel).
 struct RemapWork
 {
-  View<double *[16]> geometry;        // num_cells: moved volume, density, centroid, four swept faces
+  View<double *[16]> geometry;        // num_cells: moved volume, centroid, four swept faces
+  View<double *[8]> moved_record;     // num_cells: density, kinetic energy and the other fields of a record
   View<double *[4][8]> flux;          // num_cells: outgoing fluxes of the faces
   View<double *[8]> corner_increment; // num_cells: momentum gained by the corners
 };

@@ -31,7 +31,7 @@ def test_length_is_converged_at_eight_cells_and_energy_closes():
 
 
 def test_returned_kinetic_defect_keeps_the_energy():
-    r = rod(8, **{"remap/return_kinetic_defect": "true"})
+    r = rod(8, **{"numerics/remap/return_kinetic_defect": "true"})
     e0 = r.first("kinetic_energy") + r.first("internal_energy")
     drift = [abs(k + i + c - e0) / e0 for k, i, c in zip(r["kinetic_energy"], r["internal_energy"], r["contact_loss"])]
     check("energy drift less the contact loss", max(drift), 1e-4)

@@ -28,7 +28,7 @@ def test_three_materials_translate():
 
 
 def test_first_order_and_youngs_translate_too():
-    r = harmos(DECK, {"output/fields/every_time": 0.0, "remap/order": 1, "reconstruction/method": "youngs", "run/end_time": 5e-4})
+    r = harmos(DECK, {"output/fields/every_time": 0.0, "numerics/remap/order": 1, "numerics/reconstruction/method": "youngs", "run/end_time": 5e-4})
     examine(r)
     clean(r)
 

@@ -83,12 +83,17 @@ Result solve(Mesh const &mesh, Exchange const &exchange, int depth, RigidMotion 
   result.bodies = scene.bodies;
   auto const half = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.half);
   auto const node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.dof_nodes.node);
-  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.dof_nodes.material);
   auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_global);
-  auto const node_depth = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_depth);
-  for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
-    if (node_depth(node(dof)) <= depth)
-      result.half[{global(node(dof)), material(dof)}] = {half(dof, 0), half(dof, 1)};
+  auto const cell_depth = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_depth);
+  auto const cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.cell);
+  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.material);
+  auto const dofs = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.dof_node);
+  for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+    for (int k = 0; k < 4 && cell_depth(cell(pair)) <= depth; ++k)
+    {
+      int const dof = dofs(pair, k);
+      result.half[{global(node(dof)), material(pair)}] = {half(dof, 0), half(dof, 1)};
+    }
   return result;
 }
 
@@ -98,12 +103,14 @@ TEST(ConstrainRanks, anyPartition_givesTheBitsOfOneRank)
 {
   auto const comm = Tpetra::getDefaultComm();
   HostMesh const whole = rectilinearMesh(uniform(n, n), uniform(n, n));
-  for (int const pattern : {0, 1, 2})
-    for (RigidMotion const motion : {RigidMotion::Free, RigidMotion::Prescribed})
+  for (RigidMotion const motion : {RigidMotion::Free, RigidMotion::Prescribed})
+  {
+    Result const one = solve(buildMesh(whole), serialExchange(), 0, motion);
+    ASSERT_TRUE(one.report.converged) << one.report.residual;
+    EXPECT_GT(one.report.iterations, 10);
+    std::cout << one.report.iterations << " iterations\n";
+    for (int const pattern : {0, 1, 2})
     {
-      Result const one = solve(buildMesh(whole), serialExchange(), 0, motion);
-      ASSERT_TRUE(one.report.converged) << one.report.residual;
-      EXPECT_GT(one.report.iterations, 10);
       std::vector<int> owner;
       for (int c = 0; c < n * n; ++c)
       {
@@ -132,4 +139,5 @@ TEST(ConstrainRanks, anyPartition_givesTheBitsOfOneRank)
       }
       EXPECT_EQ(different, 0);
     }
+  }
 }

@@ -150,6 +150,16 @@ TEST(ContactRows, smallStepBetweenCells_carriesNoRow)
     EXPECT_GT(r.normal[1], 0.9);
 }
 
+// Block 0 ends 0.3 of a cell above a face of its neighbour's column: that face is exposed by less than a half.
+TEST(ContactRows, faceExposedByLessThanAHalf_carriesNoRow)
+{
+  TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)), {boxBody(0, 0, 0, 4, 4.3), boxBody(1, 4, 0, 8, 8)}, 2,
+                  open_box);
+  EXPECT_EQ(rowsOf(scene).size(), 4u);
+  scene.options.exposed_face = 0.25;
+  EXPECT_EQ(rowsOf(scene).size(), 5u);
+}
+
 TEST(ContactRows, keysAscendAndWeightsReproduceThePoints)
 {
   Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};

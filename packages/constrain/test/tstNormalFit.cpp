@@ -59,14 +59,19 @@ TEST(NormalFit, straightLineOnBothSides_isExact)
   EXPECT_LT(angleBetween(fit(s), n), 1e-14);
 }
 
+// One segment lies a third of a cell off and is tilted by 35 degrees: without the robust weights the normal errs by
+// 0.02.
 TEST(NormalFit, straightLineWithAWildSegment_isNearlyExact)
 {
   Vector2 const n = atAngle(105.0), t = perpendicular(n);
   std::vector<FitSample> s;
   for (int i = -3; i <= 3; ++i)
     for (int side = 0; side < 2; ++side)
-      s.push_back(sampleAt((0.9 * i) * t, i == 1 && side == 0 ? atAngle(140.0) : n, 0.9, side));
-  EXPECT_LT(angleBetween(fit(s), n), 2e-3);
+    {
+      bool const wild = i == 2 && side == 0;
+      s.push_back(sampleAt((0.9 * i) * t + (wild ? 0.33 : 0.0) * n, wild ? atAngle(140.0) : n, 0.9, side));
+    }
+  EXPECT_LT(angleBetween(fit(s), n), 5e-4);
 }
 
 TEST(NormalFit, noisyLine_isAveraged)

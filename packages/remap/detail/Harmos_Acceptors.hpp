@@ -110,8 +110,8 @@ struct Residues
   View<double *[num_stage_fields]> integral; // donors.num
 };
 
-Residues findResidues(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors, Overlays const &overlays,
-                      Acceptors const &acceptors, Bookings const &bookings);
+Residues findResidues(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors,
+                      Overlays const &overlays, Acceptors const &acceptors, Bookings const &bookings);
 
 /// Sum the overlays, residues and inflows of every candidate, in ascending order of donors.
 void accumulate(Input const &in, Classes const &classes, Donors const &donors, Overlays const &overlays,

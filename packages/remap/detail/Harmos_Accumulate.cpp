@@ -102,17 +102,19 @@ struct AccumulateFunctor
       for (int f = 0; f < num_candidate_sums; ++f)
         acceptors.sum(c, f) = 0.0;
     bool const inflow = (classes.openAround(in.mesh, acceptor) & InflowBit) != 0;
-    forCellAndNeighbours(in.mesh, acceptor, [&](int cell) {
-      int const other = classes.interface_index(cell);
-      if (other < 0)
-        return;
-      int const rotation = cornerRotation(in.mesh, acceptor, cell);
-      for (int donor = donors.offset(other); donor < donors.offset(other + 1); ++donor)
-        if (donors.kind(donor) != RigidDonor)
-          addDonor(index, acceptor, cell, donor, rotation);
-      if (inflow)
-        addInflow(index, acceptor, cell);
-    });
+    forCellAndNeighbours(in.mesh, acceptor,
+                         [&](int cell)
+                         {
+                           int const other = classes.interface_index(cell);
+                           if (other < 0)
+                             return;
+                           int const rotation = cornerRotation(in.mesh, acceptor, cell);
+                           for (int donor = donors.offset(other); donor < donors.offset(other + 1); ++donor)
+                             if (donors.kind(donor) != RigidDonor)
+                               addDonor(index, acceptor, cell, donor, rotation);
+                           if (inflow)
+                             addInflow(index, acceptor, cell);
+                         });
   }
 };
 
@@ -179,8 +181,7 @@ void mergeFragments(Input const &in, Classes const &classes, Acceptors const &ac
         int const cell = classes.interface_cell(i);
         for (int c = acceptors.offset(i); c < acceptors.offset(i + 1); ++c)
         {
-          bool const fragment =
-              acceptors.verbatim(i) == 0 && isFragment(in, acceptors, c, in.mesh.cell_area(cell));
+          bool const fragment = acceptors.verbatim(i) == 0 && isFragment(in, acceptors, c, in.mesh.cell_area(cell));
           int const target = fragment ? mergeTarget(in, classes, acceptors, cell, acceptors.material(c)) : -1;
           acceptors.merge_to(c) = target;
           if (target >= 0 && in.mesh.cell_depth(cell) == 0)

@@ -53,23 +53,25 @@ KOKKOS_INLINE_FUNCTION void collect(Input const &in, Classes const &classes, Don
 {
   bool const inflow = (classes.openAround(in.mesh, acceptor) & InflowBit) != 0;
   verbatim = !inflow;
-  forCellAndNeighbours(in.mesh, acceptor, [&](int cell) {
-    int const index = classes.interface_index(cell);
-    if (index < 0)
-      return;
-    for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
-    {
-      int const kind = donors.kind(donor);
-      verbatim = verbatim && (kind == QuietDonor || (kind == RigidDonor && cell != acceptor));
-      if (kind == RigidDonor)
-        continue;
-      int const slot = overlays.find(in.mesh, donor, cell, acceptor);
-      if (slot >= 0 && overlays.moment(slot, 0) > 0.0)
-        set.insert(in.pairs.material(donors.pair(donor)));
-    }
-    if (inflow)
-      insertInflow(in, cell, acceptor, set);
-  });
+  forCellAndNeighbours(in.mesh, acceptor,
+                       [&](int cell)
+                       {
+                         int const index = classes.interface_index(cell);
+                         if (index < 0)
+                           return;
+                         for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
+                         {
+                           int const kind = donors.kind(donor);
+                           verbatim = verbatim && (kind == QuietDonor || (kind == RigidDonor && cell != acceptor));
+                           if (kind == RigidDonor)
+                             continue;
+                           int const slot = overlays.find(in.mesh, donor, cell, acceptor);
+                           if (slot >= 0 && overlays.moment(slot, 0) > 0.0)
+                             set.insert(in.pairs.material(donors.pair(donor)));
+                         }
+                         if (inflow)
+                           insertInflow(in, cell, acceptor, set);
+                       });
   if (in.rigid.offset.extent(0) == 0)
     return;
   for (int r = in.rigid.offset(acceptor); r < in.rigid.offset(acceptor + 1); ++r)
@@ -92,20 +94,22 @@ KOKKOS_INLINE_FUNCTION bool leftThroughOutflow(Input const &in, int cell, Vector
 {
   double farthest = 0.0;
   bool outflow = false;
-  forCellAndNeighbours(in.mesh, cell, [&](int near) {
-    for (int face = 0; face < 4; ++face)
-    {
-      int const number = in.mesh.face_boundary(near, face);
-      if (number < 0)
-        continue;
-      double const beyond = boundaryDistance(in, near, face, point);
-      if (beyond > farthest)
-      {
-        farthest = beyond;
-        outflow = in.conditions.boundary(number).kind == BoundaryKind::Outflow;
-      }
-    }
-  });
+  forCellAndNeighbours(in.mesh, cell,
+                       [&](int near)
+                       {
+                         for (int face = 0; face < 4; ++face)
+                         {
+                           int const number = in.mesh.face_boundary(near, face);
+                           if (number < 0)
+                             continue;
+                           double const beyond = boundaryDistance(in, near, face, point);
+                           if (beyond > farthest)
+                           {
+                             farthest = beyond;
+                             outflow = in.conditions.boundary(number).kind == BoundaryKind::Outflow;
+                           }
+                         }
+                       });
   return outflow;
 }
 
@@ -253,8 +257,8 @@ Acceptors findCandidates(Input const &in, Classes const &classes, Donors const &
   return acceptors;
 }
 
-Residues findResidues(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors, Overlays const &overlays,
-                      Acceptors const &acceptors, Bookings const &bookings)
+Residues findResidues(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors,
+                      Overlays const &overlays, Acceptors const &acceptors, Bookings const &bookings)
 {
   Residues const residues{scratch<int *>("residueTarget", donors.num),
                           scratch<double *[num_stage_fields]>("residue", donors.num)};

@@ -49,7 +49,8 @@ struct PolynomialFunctor
     }
   }
 
-  /// Least-squares gradient weighted by filled part over distance squared; along a line where all neighbours lie on one.
+  /// Least-squares gradient weighted by filled part over distance squared; along a line where all neighbours lie on
+  /// one.
   KOKKOS_INLINE_FUNCTION void gradient(int pair, Vector2 const &centroid, double const q[fields], double gx[fields],
                                        double gy[fields], double lower[fields], double upper[fields]) const
   {
@@ -156,8 +157,8 @@ struct PolynomialFunctor
                    per_mass * (donors.shape(donor, 4) * gx[0] + donors.shape(donor, 5) * gy[0])};
     for (int f = 1; f < fields; ++f)
     {
-      double const a = limit(region, byVolume(f) ? centroid : centroid + mass_offset, q[f], gx[f], gy[f], lower[f],
-                             upper[f]);
+      double const a =
+          limit(region, byVolume(f) ? centroid : centroid + mass_offset, q[f], gx[f], gy[f], lower[f], upper[f]);
       gx[f] *= a;
       gy[f] *= a;
     }

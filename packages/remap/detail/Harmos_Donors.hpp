@@ -45,13 +45,13 @@ enum DonorKind : int
 struct Donors
 {
   int num = 0;
-  View<int *> offset;               // num_interface + 1
+  View<int *> offset; // num_interface + 1
   View<int *> pair;
-  View<int *> kind;                 // DonorKind
-  View<Region *> polygon;           // moved; moving donors
-  View<double *[6]> shape;          // volume, centroid, second moments xx, xy, yy about the centroid
+  View<int *> kind;                               // DonorKind
+  View<Region *> polygon;                         // moved; moving donors
+  View<double *[6]> shape;                        // volume, centroid, second moments xx, xy, yy about the centroid
   View<double *[num_stage_fields][3]> polynomial; // mean, gradient
-  View<double *[2]> mass_offset;    // mass centroid - centroid
+  View<double *[2]> mass_offset;                  // mass centroid - centroid
 
   KOKKOS_INLINE_FUNCTION int index(Input const &in, Classes const &classes, int of_pair) const
   {

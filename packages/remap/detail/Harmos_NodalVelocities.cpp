@@ -48,10 +48,11 @@ struct NodalVelocityFunctor
         if (pairs.dof_node(pair, corner) != dof || in.isRigid(pairs.material(pair)))
           continue;
         double const m = record(pair, Mass);
-        int const old_dof = interface ? -1 : in.pairs.dof_node(in.pairs.offset(cell) + pair - pairs.offset(cell), corner);
+        int const old_dof =
+            interface ? -1 : in.pairs.dof_node(in.pairs.offset(cell) + pair - pairs.offset(cell), corner);
         for (int d = 0; d < 2; ++d)
-          momentum[d] += m * (interface ? acceptors.corner_velocity(candidate(pair), 2 * corner + d)
-                                        : stage.velocity(old_dof, d));
+          momentum[d] +=
+              m * (interface ? acceptors.corner_velocity(candidate(pair), 2 * corner + d) : stage.velocity(old_dof, d));
         mass += m;
       }
     }

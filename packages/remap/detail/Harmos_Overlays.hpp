@@ -15,8 +15,8 @@ namespace RemapDetail
 /// Overlays below this part of the acceptor are dropped; their mass stays in the donor's residue.
 constexpr double least_overlay = 1e-15;
 
-/// Intersections of donors with acceptors: slot offset(donor) is the donor's own cell, offset(donor) + 1 + j the j-th of
-/// its cell's vertex neighbours.
+/// Intersections of donors with acceptors: slot offset(donor) is the donor's own cell, offset(donor) + 1 + j the j-th
+/// of its cell's vertex neighbours.
 struct Overlays
 {
   View<int *> offset;       // donors.num + 1

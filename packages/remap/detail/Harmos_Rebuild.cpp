@@ -130,9 +130,9 @@ void updateCellKinds(Classes const &classes, Rebuilt const &out)
         int const cell = classes.interface_cell(i);
         int const first = pairs.offset(cell);
         int const count = pairs.offset(cell + 1) - first;
-        pairs.cell_kind(cell) = count == 0                                                    ? VoidCell
+        pairs.cell_kind(cell) = count == 0                                                 ? VoidCell
                                 : count == 1 && state.record(first, VolumeFraction) == 1.0 ? PureCell
-                                                                                              : MixedCell;
+                                                                                           : MixedCell;
       });
 }
 

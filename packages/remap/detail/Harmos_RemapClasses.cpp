@@ -90,7 +90,7 @@ void classifyNodes(Input const &in, Classes const &classes)
           if (any_open && classes.open(cell) != 0)
             open |= faceOpenBit(in, cell, corner) | faceOpenBit(in, cell, (corner + 3) % 4);
         }
-        int const kind = uniform && open == 0                     ? SweptNode
+        int const kind = uniform && open == 0                    ? SweptNode
                          : deformable || (open & InflowBit) != 0 ? InterfaceNode
                                                                  : StillNode;
         classes.node_return(node) = kind;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptFluxes.hpp>
 
+#include <detail/Harmos_FieldPack.hpp>
+
 namespace Harmos
 {
 namespace RemapDetail
@@ -25,27 +27,21 @@ struct SweptFluxFunctor
 {
   Input in;
   Classes classes;
-  View<double *> kinetic;
+  View<double *[8]> moved_record;
   View<double *[16]> geometry;
   View<double *[4][8]> flux;
 
-  static constexpr int fields = 8;
-
-  KOKKOS_INLINE_FUNCTION void load(int cell, double q[fields]) const
+  struct Gradient
   {
-    int const pair = in.pairs.offset(cell);
-    for (int f = 0; f < fields; ++f)
-      q[f] = in.state.record(pair, f);
-    q[DensityField] = geometry(cell, MovedDensity);
-    q[KineticField] = kinetic.extent(0) > 0 ? kinetic(pair) : 0.0;
-  }
+    FieldPack x, y, lower, upper; // and the range of the cell and its face neighbours
+  };
 
-  /// Linear-exact gradient from the differences across the cell along its two directions; lower and upper are widened
-  /// to the neighbours' values.
-  KOKKOS_INLINE_FUNCTION void gradient(int cell, double const q[fields], double gx[fields], double gy[fields],
-                                       double lower[fields], double upper[fields]) const
+  KOKKOS_INLINE_FUNCTION FieldPack load(int cell) const { return FieldPack(&moved_record(cell, 0)); }
+
+  /// Linear-exact gradient from the differences across the cell along its two directions.
+  KOKKOS_INLINE_FUNCTION void differentiate(int cell, FieldPack const &q, Gradient &g) const
   {
-    double difference[2][fields] = {};
+    FieldPack difference[2] = {FieldPack(0.0), FieldPack(0.0)};
     Vector2 d[2] = {{0.0, 0.0}, {0.0, 0.0}};
     Vector2 const centroid{geometry(cell, CentroidX), geometry(cell, CentroidY)};
     int const material = classes.pure_material(cell);
@@ -55,17 +51,20 @@ struct SweptFluxFunctor
       if (face < 0 || classes.pure_material(face / 4) != material)
         continue;
       int const neighbour = face / 4;
-      double p[fields];
-      load(neighbour, p);
-      double const sign = k == 1 || k == 2 ? 1.0 : -1.0;
-      int const direction = k % 2;
-      d[direction] += sign * (Vector2{geometry(neighbour, CentroidX), geometry(neighbour, CentroidY)} - centroid);
-      for (int f = 0; f < fields; ++f)
+      FieldPack const p = load(neighbour);
+      Vector2 const to = Vector2{geometry(neighbour, CentroidX), geometry(neighbour, CentroidY)} - centroid;
+      if (k == 1 || k == 2)
       {
-        difference[direction][f] += sign * (p[f] - q[f]);
-        lower[f] = p[f] < lower[f] ? p[f] : lower[f];
-        upper[f] = p[f] > upper[f] ? p[f] : upper[f];
+        d[k % 2] += to;
+        difference[k % 2] += p - q;
       }
+      else
+      {
+        d[k % 2] -= to;
+        difference[k % 2] -= p - q;
+      }
+      g.lower = min(g.lower, p);
+      g.upper = max(g.upper, p);
     }
     if (dot(d[0], d[0]) == 0.0)
       d[0] = -perpendicular(d[1]);
@@ -73,14 +72,24 @@ struct SweptFluxFunctor
       d[1] = perpendicular(d[0]);
     double const det = cross(d[0], d[1]);
     double const inverse = det != 0.0 ? 1.0 / det : 0.0;
-    for (int f = 0; f < fields; ++f)
-    {
-      gx[f] = inverse * (difference[0][f] * d[1][1] - difference[1][f] * d[0][1]);
-      gy[f] = inverse * (difference[1][f] * d[0][0] - difference[0][f] * d[1][0]);
-    }
+    g.x = (inverse * d[1][1]) * difference[0] - (inverse * d[0][1]) * difference[1];
+    g.y = (inverse * d[0][0]) * difference[1] - (inverse * d[1][0]) * difference[0];
   }
 
-  KOKKOS_INLINE_FUNCTION static double limiter(double q, double lower, double upper, double least, double most)
+  /// The largest part of a deviation from q, at most all of it, that keeps q + [least, most] within [lower, upper].
+  KOKKOS_INLINE_FUNCTION static FieldPack limiter(FieldPack const &q, Gradient const &g, FieldPack const &least,
+                                                  FieldPack const &most)
+  {
+    FieldPack const one(1.0), tiny(1e-300);
+    FieldPack const above = g.upper - q;
+    FieldPack const below = q - g.lower;
+    FieldPack const drop = FieldPack(0.0) - least;
+    FieldPack const up = select(above, most, above / max(most, tiny), one);
+    FieldPack const down = select(below, drop, below / max(drop, tiny), one);
+    return min(up, down);
+  }
+
+  KOKKOS_INLINE_FUNCTION static double densityLimiter(double q, double lower, double upper, double least, double most)
   {
     double const up = most > upper - q ? (upper - q) / most : 1.0;
     double const down = least < lower - q ? (lower - q) / least : 1.0;
@@ -101,71 +110,67 @@ struct SweptFluxFunctor
     }
     if (!leaves)
       return;
-    double q[fields], gx[fields] = {}, gy[fields] = {};
-    double lower[fields], upper[fields];
-    load(cell, q);
-    for (int f = 0; f < fields; ++f)
-      lower[f] = upper[f] = q[f];
+    FieldPack const q = load(cell);
+    Gradient g;
+    g.lower = g.upper = q;
     if (in.options.order > 1)
-      gradient(cell, q, gx, gy, lower, upper);
-    writeFluxes(cell, volume, staying, q, gx, gy, lower, upper);
+    {
+      differentiate(cell, q, g);
+      writeFluxes(cell, volume, staying, q, g);
+      return;
+    }
+    for (int k = 0; k < 4; ++k)
+      if (volume[k] > 0.0)
+        (fieldWeights(volume[k], volume[k] * moved_record(cell, DensityField)) * q).store(&flux(cell, k, 0));
   }
 
-  KOKKOS_INLINE_FUNCTION void writeFluxes(int cell, double const volume[4], double staying, double const q[fields],
-                                          double const gx[fields], double const gy[fields], double const lower[fields],
-                                          double const upper[fields]) const
+  KOKKOS_INLINE_FUNCTION void writeFluxes(int cell, double const volume[4], double staying, FieldPack const &q,
+                                          Gradient const &g) const
   {
-    double dx[4], dy[4];
-    for (int k = 0; k < 4; ++k)
-    {
-      dx[k] = volume[k] > 0.0 ? geometry(cell, FirstFace + 3 * k + 1) : 0.0;
-      dy[k] = volume[k] > 0.0 ? geometry(cell, FirstFace + 3 * k + 2) : 0.0;
-    }
     // Density first: it gives the mass fluxes that weigh the primitives.
-    double rho[4];
-    double least = 0.0, most = 0.0, sum = 0.0;
+    double const rho = moved_record(cell, DensityField);
+    double gradient_x[8], gradient_y[8], lower[8], upper[8];
+    g.x.store(gradient_x);
+    g.y.store(gradient_y);
+    g.lower.store(lower);
+    g.upper.store(upper);
+    double deviation[4];
+    double least = 0.0, most = 0.0, rest = 0.0;
     for (int k = 0; k < 4; ++k)
     {
-      rho[k] = gx[0] * dx[k] + gy[0] * dy[k];
-      least = Math::min(least, rho[k]);
-      most = Math::max(most, rho[k]);
-      sum -= volume[k] * rho[k];
+      deviation[k] =
+          gradient_x[0] * geometry(cell, FirstFace + 3 * k + 1) + gradient_y[0] * geometry(cell, FirstFace + 3 * k + 2);
+      least = Math::min(least, deviation[k]);
+      most = Math::max(most, deviation[k]);
+      rest -= volume[k] * deviation[k];
     }
-    sum /= staying;
-    double const alpha = limiter(q[0], lower[0], upper[0], Math::min(least, sum), Math::max(most, sum));
+    rest /= staying;
+    double const alpha = densityLimiter(rho, lower[0], upper[0], Math::min(least, rest), Math::max(most, rest));
     double mass[4];
-    double staying_mass = geometry(cell, MovedVolume) * q[0];
+    double staying_mass = geometry(cell, MovedVolume) * rho;
     for (int k = 0; k < 4; ++k)
     {
-      mass[k] = volume[k] * (q[0] + alpha * rho[k]);
+      mass[k] = volume[k] * (rho + alpha * deviation[k]);
       staying_mass -= mass[k];
     }
-    double value[4][fields];
-    for (int f = 0; f < fields; ++f)
-    {
-      bool const by_mass = f >= 1 && f <= 4;
-      double low = 0.0, high = 0.0, rest = 0.0;
-      for (int k = 0; k < 4; ++k)
-      {
-        double const delta = gx[f] * dx[k] + gy[f] * dy[k];
-        value[k][f] = delta;
-        low = delta < low ? delta : low;
-        high = delta > high ? delta : high;
-        rest -= (by_mass ? mass[k] : volume[k]) * delta;
-      }
-      rest /= by_mass ? staying_mass : staying;
-      low = rest < low ? rest : low;
-      high = rest > high ? rest : high;
-      double const a = limiter(q[f], lower[f], upper[f], low, high);
-      for (int k = 0; k < 4; ++k)
-        value[k][f] = (by_mass ? mass[k] : volume[k]) * (q[f] + a * value[k][f]);
-    }
+    FieldPack value[4];
+    FieldPack low(0.0), high(0.0), left(0.0);
     for (int k = 0; k < 4; ++k)
     {
       if (volume[k] <= 0.0)
         continue;
-      for (int f = 0; f < fields; ++f)
-        flux(cell, k, f) = value[k][f];
+      value[k] = geometry(cell, FirstFace + 3 * k + 1) * g.x + geometry(cell, FirstFace + 3 * k + 2) * g.y;
+      low = min(low, value[k]);
+      high = max(high, value[k]);
+      left -= fieldWeights(volume[k], mass[k]) * value[k];
+    }
+    left *= fieldWeights(1.0 / staying, 1.0 / staying_mass);
+    FieldPack const a = limiter(q, g, min(low, left), max(high, left));
+    for (int k = 0; k < 4; ++k)
+    {
+      if (volume[k] <= 0.0)
+        continue;
+      (fieldWeights(volume[k], mass[k]) * (q + a * value[k])).store(&flux(cell, k, 0));
       flux(cell, k, DensityField) = mass[k];
     }
   }
@@ -173,9 +178,11 @@ struct SweptFluxFunctor
 
 } // namespace
 
-void sweptGeometry(Input const &in, Classes const &classes, RemapWork const &work)
+void sweptGeometry(Input const &in, Classes const &classes, View<double *> const &kinetic, RemapWork const &work)
 {
+  bool const carries = kinetic.extent(0) > 0;
   View<double *[16]> const geometry = work.geometry;
+  View<double *[8]> const moved_record = work.moved_record;
   Kokkos::parallel_for(
       "Harmos::remap::sweptGeometry", RangePolicy(0, in.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
         if (classes.pure_material(cell) < 0)
@@ -194,26 +201,31 @@ void sweptGeometry(Input const &in, Classes const &classes, RemapWork const &wor
         }
         AreaCentroid const body = areaCentroid(moved);
         geometry(cell, MovedVolume) = body.area;
-        geometry(cell, MovedDensity) = in.state.record(pair, Mass) / body.area;
+        for (int f = SpecificVolume; f < num_pair_fields; ++f)
+          moved_record(cell, f) = in.state.record(pair, f);
+        moved_record(cell, DensityField) = in.state.record(pair, Mass) / body.area;
+        moved_record(cell, KineticField) = carries ? kinetic(pair) : 0.0;
         geometry(cell, CentroidX) = body.centroid[0];
         geometry(cell, CentroidY) = body.centroid[1];
         for (int k = 0; k < 4; ++k)
         {
           int const next = (k + 1) % 4;
-          bool const inside = in.mesh.face_neighbour(cell, k) >= 0;
-          Vector2 const centroid = sweptCentroid(middle[k], middle[next], back[k], back[next]) - body.centroid;
-          geometry(cell, FirstFace + 3 * k) =
-              inside ? 0.5 * cross(back[k] + back[next], middle[next] - middle[k]) : 0.0;
+          double const swept =
+              in.mesh.face_neighbour(cell, k) >= 0 ? 0.5 * cross(back[k] + back[next], middle[next] - middle[k]) : 0.0;
+          Vector2 centroid{0.0, 0.0}; // unused where nothing leaves
+          if (swept > 0.0)
+            centroid = sweptCentroid(middle[k], middle[next], back[k], back[next]) - body.centroid;
+          geometry(cell, FirstFace + 3 * k) = swept;
           geometry(cell, FirstFace + 3 * k + 1) = centroid[0];
           geometry(cell, FirstFace + 3 * k + 2) = centroid[1];
         }
       });
 }
 
-void sweptFluxes(Input const &in, Classes const &classes, View<double *> const &kinetic, RemapWork const &work)
+void sweptFluxes(Input const &in, Classes const &classes, RemapWork const &work)
 {
   Kokkos::parallel_for("Harmos::remap::sweptFluxes", RangePolicy(0, classes.num_swept),
-                       SweptFluxFunctor{in, classes, kinetic, work.geometry, work.flux});
+                       SweptFluxFunctor{in, classes, work.moved_record, work.geometry, work.flux});
 }
 
 } // namespace RemapDetail

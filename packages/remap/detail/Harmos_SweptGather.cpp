@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptFluxes.hpp>
 
+#include <detail/Harmos_FieldPack.hpp>
+
 namespace Harmos
 {
 namespace RemapDetail
@@ -12,11 +14,10 @@ namespace
 /// Monotonised central difference of two neighbouring differences.
 KOKKOS_INLINE_FUNCTION double limitedDifference(double upstream, double downstream)
 {
-  if (upstream * downstream <= 0.0)
-    return 0.0;
   double const central = 0.5 * Math::fabs(upstream + downstream);
   double const bound = 2.0 * Math::min(Math::fabs(upstream), Math::fabs(downstream));
-  return (upstream > 0.0 ? 1.0 : -1.0) * Math::min(central, bound);
+  double const size = upstream * downstream > 0.0 ? Math::min(central, bound) : 0.0;
+  return upstream > 0.0 ? size : -size;
 }
 
 struct SweptGatherFunctor
@@ -24,6 +25,7 @@ struct SweptGatherFunctor
   Input in;
   Classes classes;
   View<double *> kinetic;
+  View<double *[8]> moved_record;
   View<double *[16]> geometry;
   View<double *[4][8]> flux;
   View<double *[8]> increment;
@@ -31,7 +33,7 @@ struct SweptGatherFunctor
   View<double *> kinetic1;
 
   /// Mass that leaves through each face; change[] sums what all fluxes bring. False where nothing flows.
-  KOKKOS_INLINE_FUNCTION bool gather(int cell, double outflow[4], double change[8], double &volume) const
+  KOKKOS_INLINE_FUNCTION bool gather(int cell, double outflow[4], FieldPack &change, double &volume) const
   {
     bool flows = false;
     for (int k = 0; k < 4; ++k)
@@ -42,35 +44,36 @@ struct SweptGatherFunctor
         continue;
       flows = true;
       volume -= swept;
-      int const face = swept > 0.0 ? 4 * cell + k : in.mesh.face_neighbour(cell, k);
-      double const sign = swept > 0.0 ? 1.0 : -1.0;
-      outflow[k] = sign * flux(face / 4, face % 4, DensityField);
-      for (int f = 0; f < 8; ++f)
-        change[f] -= sign * flux(face / 4, face % 4, f);
+      if (swept > 0.0)
+      {
+        outflow[k] = flux(cell, k, DensityField);
+        change -= FieldPack(&flux(cell, k, 0));
+      }
+      else
+      {
+        int const face = in.mesh.face_neighbour(cell, k);
+        outflow[k] = -flux(face / 4, face % 4, DensityField);
+        change += FieldPack(&flux(face / 4, face % 4, 0));
+      }
     }
     return flows;
   }
 
-  KOKKOS_INLINE_FUNCTION void newRecord(int pair, int material, double moved_volume, double volume,
-                                        double const change[8]) const
+  KOKKOS_INLINE_FUNCTION void newRecord(int cell, int pair, double const outflow[4], double moved_volume, double volume,
+                                        FieldPack const &change) const
   {
-    double q[8];
-    for (int f = 0; f < 8; ++f)
-      q[f] = in.state.record(pair, f);
-    double const mass = q[Mass];
-    double const mass1 = mass + change[0];
-    double const per_mass = 1.0 / mass1;
-    double const per_volume = 1.0 / volume;
-    for (int f = SpecificVolume; f <= PlasticStrain; ++f)
-      q[f] = (mass * q[f] + change[f]) * per_mass;
-    for (int f = DeviatorXX; f <= DeviatorXY; ++f)
-      q[f] = (moved_volume * q[f] + change[f]) * per_volume;
-    q[Mass] = mass1;
-    returnToYield(in.materials(material), q);
-    for (int f = 0; f < 8; ++f)
-      record1(pair, f) = q[f];
-    if (kinetic.extent(0) > 0)
-      kinetic1(pair) = (mass * kinetic(pair) + change[KineticField]) * per_mass;
+    double const mass = in.state.record(pair, Mass);
+    double const mass1 = mass - ((outflow[0] + outflow[1]) + (outflow[2] + outflow[3]));
+    FieldPack const q(&moved_record(cell, 0));
+    double q1[FieldPack::fields];
+    ((fieldWeights(moved_volume, mass) * q + change) * fieldWeights(1.0 / volume, 1.0 / mass1)).store(q1);
+    if (kinetic1.extent(0) > 0)
+      kinetic1(pair) = q1[KineticField];
+    q1[Mass] = mass1;
+    q1[VolumeFraction] = 1.0;
+    returnToYield(in.materials(classes.pure_material(cell)), q1);
+    for (int f = 0; f < num_pair_fields; ++f)
+      record1(pair, f) = q1[f];
   }
 
   KOKKOS_INLINE_FUNCTION Vector2 velocity(int pair, int corner) const
@@ -79,8 +82,8 @@ struct SweptGatherFunctor
     return {in.half(dof, 0), in.half(dof, 1)};
   }
 
-  /// The mass G flows along two parallel edges of a cell, edge[0] -> edge[1] and edge[2] -> edge[3]. The nodes where they
-  /// begin share the face `behind`, those where they end share `ahead`.
+  /// The mass G flows along two parallel edges of a cell, edge[0] -> edge[1] and edge[2] -> edge[3]. The nodes where
+  /// they begin share the face `behind`, those where they end share `ahead`.
   KOKKOS_INLINE_FUNCTION void advect(int cell, double mass, double G, int const edge[4], int behind, int ahead,
                                      Vector2 const v[4], Vector2 gain[4]) const
   {
@@ -108,8 +111,7 @@ struct SweptGatherFunctor
         int const corner = (beyond_face % 4 + (up == upwind_face ? 2 : 3)) % 4;
         Vector2 const beyond = velocity(in.pairs.offset(beyond_face / 4), corner);
         for (int d = 0; d < 2; ++d)
-          face_velocity[d] +=
-              0.5 * (1.0 - courant) * limitedDifference(v[up][d] - beyond[d], v[down][d] - v[up][d]);
+          face_velocity[d] += 0.5 * (1.0 - courant) * limitedDifference(v[up][d] - beyond[d], v[down][d] - v[up][d]);
       }
       gain[down] += flow * (face_velocity - v[down]);
       gain[up] -= flow * (face_velocity - v[up]);
@@ -118,7 +120,7 @@ struct SweptGatherFunctor
 
   KOKKOS_INLINE_FUNCTION void operator()(int cell) const
   {
-    double change[8] = {};
+    FieldPack change(0.0);
     double outflow[4];
     int const first = in.pairs.offset(cell);
     bool flows = false;
@@ -128,7 +130,7 @@ struct SweptGatherFunctor
       double const moved_volume = volume;
       flows = gather(cell, outflow, change, volume);
       if (flows)
-        newRecord(first, classes.pure_material(cell), moved_volume, volume, change);
+        newRecord(cell, first, outflow, moved_volume, volume, change);
     }
     if (!flows)
     {
@@ -170,8 +172,8 @@ void sweptGather(Input const &in, Classes const &classes, View<double *> const &
                  View<double *[num_pair_fields]> const &record1, View<double *> const &kinetic1)
 {
   Kokkos::parallel_for("Harmos::remap::sweptGather", RangePolicy(0, in.mesh.num_cells),
-                       SweptGatherFunctor{in, classes, kinetic, work.geometry, work.flux, work.corner_increment,
-                                          record1, kinetic1});
+                       SweptGatherFunctor{in, classes, kinetic, work.moved_record, work.geometry, work.flux,
+                                          work.corner_increment, record1, kinetic1});
 }
 
 void sweptMomentum(Input const &in, Classes const &classes, RemapWork const &work,

@@ -41,7 +41,8 @@ inline Plane2 lineThrough(Vector2 const &point, double angle)
 /// A disc's tangent-like line in the cell around `centre` (regions are cut by straight lines).
 inline Layer disc(int material, Vector2 const &middle, double radius)
 {
-  return {material, [=](Vector2 const &centre) {
+  return {material, [=](Vector2 const &centre)
+          {
             Vector2 const n = normalised(centre - middle);
             return Plane2{n, dot(n, middle) + radius};
           }};
@@ -52,7 +53,10 @@ inline Layer halfPlane(int material, Vector2 const &point, double angle)
   return {material, [=](Vector2 const &) { return lineThrough(point, angle); }};
 }
 
-inline Layer rest(int material) { return {material, {}}; }
+inline Layer rest(int material)
+{
+  return {material, {}};
+}
 
 using Scalar = std::function<double(int material, Vector2 const &x)>;
 using VectorField = std::function<Vector2(int material, Vector2 const &x)>;
@@ -75,6 +79,8 @@ struct Scene
   RemapReport report;
   Kinematics kinematics = Kinematics::Xfem;
   double dt = 1.0;
+  std::vector<int> owner; // of the whole mesh's cells; empty: one rank
+  int halo = 0;
 
   Scene(int nx, int ny, double jitter, std::vector<Material> const &laws, BoundaryKind kind = BoundaryKind::SlipWall)
   {
@@ -88,7 +94,13 @@ struct Scene
       if (inner)
         x = {x[0] + dx, x[1] + dy};
     }
-    setBoundaries(std::vector<Boundary>(4, [&] { Boundary b; b.kind = kind; return b; }()));
+    setBoundaries(std::vector<Boundary>(4,
+                                        [&]
+                                        {
+                                          Boundary b;
+                                          b.kind = kind;
+                                          return b;
+                                        }()));
     materials = View<Material *>("materials", laws.size());
     auto const m = Kokkos::create_mirror_view(materials);
     for (std::size_t i = 0; i < laws.size(); ++i)
@@ -96,9 +108,20 @@ struct Scene
     Kokkos::deep_copy(materials, m);
   }
 
+  /// See the scene as rank 0 of a partition.
+  void distribute(std::vector<int> const &cell_owner, int layers)
+  {
+    owner = cell_owner;
+    halo = layers;
+    std::vector<Boundary> kinds(boundary.extent(0));
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      kinds[i] = boundary(i);
+    setBoundaries(kinds);
+  }
+
   void setBoundaries(std::vector<Boundary> const &kinds)
   {
-    mesh = buildMesh(host_mesh);
+    mesh = owner.empty() ? buildMesh(host_mesh) : buildLocalMesh(host_mesh, owner, 0, halo);
     boundary = View<Boundary *>("boundary", kinds.size());
     auto const b = Kokkos::create_mirror_view(boundary);
     for (std::size_t i = 0; i < kinds.size(); ++i)

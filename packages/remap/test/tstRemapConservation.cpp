@@ -9,8 +9,14 @@ using namespace Harmos::Test;
 namespace
 {
 
-double wave(int material, Vector2 const &x) { return 1.0 + material + 0.4 * std::sin(7.0 * x[0]) * std::cos(5.0 * x[1]); }
-double heat(int material, Vector2 const &x) { return 2.0 + 0.5 * material + std::cos(4.0 * x[0] + 3.0 * x[1]); }
+double wave(int material, Vector2 const &x)
+{
+  return 1.0 + material + 0.4 * std::sin(7.0 * x[0]) * std::cos(5.0 * x[1]);
+}
+double heat(int material, Vector2 const &x)
+{
+  return 2.0 + 0.5 * material + std::cos(4.0 * x[0] + 3.0 * x[1]);
+}
 
 /// Smooth in the box, tangential on its sides.
 Vector2 swirl(int, Vector2 const &x)
@@ -22,7 +28,8 @@ Vector2 swirl(int, Vector2 const &x)
 /// Materials move apart and into each other.
 Vector2 slip(int material, Vector2 const &x)
 {
-  return swirl(material, x) + (material == 0 ? 0.004 : -0.003) * Vector2{std::sin(Math::pi * x[0]), 0.3 * std::sin(Math::pi * x[1])};
+  return swirl(material, x) +
+         (material == 0 ? 0.004 : -0.003) * Vector2{std::sin(Math::pi * x[0]), 0.3 * std::sin(Math::pi * x[1])};
 }
 
 void expectConserved(Scene &scene, int materials)
@@ -43,7 +50,8 @@ void expectConserved(Scene &scene, int materials)
     EXPECT_NEAR(after.momentum[d] - scene.report.wall_impulse[d], before.momentum[d], 1e-14 * scale);
   if (scene.options.return_kinetic_defect)
   {
-    EXPECT_NEAR(after.internal + after.kinetic, before.internal + before.kinetic, 1e-14 * (before.internal + before.kinetic));
+    EXPECT_NEAR(after.internal + after.kinetic, before.internal + before.kinetic,
+                1e-14 * (before.internal + before.kinetic));
     EXPECT_NEAR(scene.report.kinetic_loss, 0.0, 1e-14 * before.internal);
   }
   else
@@ -103,7 +111,8 @@ TEST(Conservation, twoMaterialsWithOwnVelocities_conserveAll)
 TEST(Conservation, threeMaterialsAndVoid_conserveAll)
 {
   Scene scene(13, 15, 0.2, twoLaws());
-  scene.paint({halfPlane(2, {0.3, 0.3}, 2.0), halfPlane(0, {0.5, 0.5}, 0.4), halfPlane(1, {0.8, 0.8}, 1.1)}, wave, heat);
+  scene.paint({halfPlane(2, {0.3, 0.3}, 2.0), halfPlane(0, {0.5, 0.5}, 0.4), halfPlane(1, {0.8, 0.8}, 1.1)}, wave,
+              heat);
   scene.move(slip);
   expectConserved(scene, 3);
 }

@@ -9,8 +9,10 @@ using namespace Harmos::Test;
 namespace
 {
 
-double one(int, Vector2 const &) { return 1.0; }
-Vector2 right(int, Vector2 const &) { return {0.01, 0.0}; }
+double one(int, Vector2 const &)
+{
+  return 1.0;
+}
 
 double leastFraction(RemapResult const &result)
 {
@@ -82,9 +84,10 @@ TEST(Policies, overlappingMaterials_areScaledAndBooked)
 {
   Scene scene(4, 1, 0.0, twoLaws());
   scene.paint({halfPlane(0, {0.375, 0.0}, 0.0), rest(1)}, one, one);
-  scene.move([](int material, Vector2 const &x) {
-    return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{0.02, 0.0} : Vector2{0.0, 0.0};
-  });
+  scene.move(
+      [](int material, Vector2 const &x) {
+        return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{0.02, 0.0} : Vector2{0.0, 0.0};
+      });
   RemapResult const result = scene.remapped();
   EXPECT_NEAR(scene.report.overlap_volume, 0.02, 1e-14);
   EXPECT_NEAR(largestSumOfFractions(scene.mesh, result), 1.0, 1e-15);
@@ -99,9 +102,10 @@ TEST(Policies, spuriousGap_isClosedWhenSmallAndBookedWhenLarge)
   {
     Scene scene(4, 1, 0.0, twoLaws());
     scene.paint({halfPlane(0, {0.375, 0.0}, 0.0), rest(1)}, one, one);
-    scene.move([=](int material, Vector2 const &x) {
-      return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{-gap, 0.0} : Vector2{0.0, 0.0};
-    });
+    scene.move(
+        [=](int material, Vector2 const &x) {
+          return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{-gap, 0.0} : Vector2{0.0, 0.0};
+        });
     RemapResult const result = scene.remapped();
     bool const small = gap < 1e-3;
     EXPECT_NEAR(scene.report.closed_volume, small ? gap : 0.0, 1e-14);
@@ -153,6 +157,6 @@ TEST(Policies, emptiedCell_losesItsPairAndDofNodes)
   EXPECT_EQ(result.pairs.cell_kind(1), MixedCell);
   for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
     for (int k = 0; k < 4; ++k)
-      EXPECT_EQ(result.dof_nodes.node(result.pairs.dof_node(pair, k)), scene.mesh.cell_node(result.pairs.cell(pair), k));
-  (void)right;
+      EXPECT_EQ(result.dof_nodes.node(result.pairs.dof_node(pair, k)),
+                scene.mesh.cell_node(result.pairs.cell(pair), k));
 }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_ROW_SUMS_HPP
+#define HARMOS_ROW_SUMS_HPP
+
+#include <Harmos_Exchange.hpp>
+
+#include <array>
+
+namespace Harmos
+{
+
+/// Sums of the columns of an array over the rows of all ranks, the same bits for any distribution of the rows.
+///
+/// The columns are of like size: they share one quantum, 1e-18 of the largest entry times `items`.
+/// \param items Number of rows over all ranks, or more. Collective.
+template <int Width>
+std::array<double, Width> reproducibleColumnSums(View<double *[Width]> const &term, long long items,
+                                                 Exchange const &exchange)
+{
+  int const count = static_cast<int>(term.extent(0));
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::largestTerm", RangePolicy(0, count),
+      KOKKOS_LAMBDA(int i, double &l) {
+        for (int c = 0; c < Width; ++c)
+          l = Math::max(l, Math::fabs(term(i, c)));
+      },
+      Kokkos::Max<double>(largest));
+  ReproducibleSum const sum = reproducibleSum(exchange.max(count > 0 ? largest : 0.0), items);
+  std::array<long long, Width> quanta = {};
+  for (int c = 0; c < Width; ++c)
+    Kokkos::parallel_reduce(
+        "Harmos::constrain::sumTerms", RangePolicy(0, count),
+        KOKKOS_LAMBDA(int i, long long &q) { q += sum.quanta(term(i, c)); }, quanta[static_cast<std::size_t>(c)]);
+  exchange.sum(quanta.data(), Width);
+  std::array<double, Width> result;
+  for (int c = 0; c < Width; ++c)
+    result[static_cast<std::size_t>(c)] = sum.value(quanta[static_cast<std::size_t>(c)]);
+  return result;
+}
+
+} // namespace Harmos
+
+#endif
