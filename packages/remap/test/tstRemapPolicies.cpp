@@ -101,6 +101,7 @@ TEST(Policies, spuriousGap_isClosedWhenSmallAndBookedWhenLarge)
   for (double gap : {1e-4, 0.02})
   {
     Scene scene(4, 1, 0.0, twoLaws());
+    scene.options.close_void_below = 1e-3;
     scene.paint({halfPlane(0, {0.375, 0.0}, 0.0), rest(1)}, one, one);
     scene.move(
         [=](int material, Vector2 const &x) {
