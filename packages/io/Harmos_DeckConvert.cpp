@@ -58,6 +58,8 @@ void convertLaws(ParameterList const &materials, Deck &deck)
     law.shear_modulus = value("shear_modulus");
     law.yield = value("yield_stress");
     law.hardening = value("hardening_modulus");
+    if (value("tension_limit") > 0.0)
+      law.tension_limit = value("tension_limit");
     deck.laws.push_back(spec);
   }
 }

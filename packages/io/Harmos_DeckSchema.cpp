@@ -171,6 +171,9 @@ void addMaterials(ParameterList &materials)
       add(solid, "slope", 0.0, required(number(not_negative)), "slope of shock over particle velocity");
     add(solid, "gruneisen", 0.0, number(not_negative), "Grueneisen coefficient of the reference state");
     add(solid, "internal_energy", 0.0, number(any, "J/kg"), "internal energy e0 of the reference state");
+    add(solid, "tension_limit", 0.0, number(not_negative, "Pa"),
+        "the pressure does not fall below minus this (spall strength; the material then stretches without more "
+        "resistance); 0: no limit");
     addStrength(solid);
   }
   ParameterList &gas = list.sublist("eos = ideal gas");

@@ -70,7 +70,8 @@ KOKKOS_INLINE_FUNCTION EosState<T> idealGas(Material const &m, T specific_volume
 /// Pressure and bulk sound speed from specific volume and internal energy.
 ///
 /// \param specific_volume [m^3/kg], > 0. \param internal_energy [J/kg].
-/// \return p as EosKind states it; c^2 not below least_sound_speed_ratio_squared c0^2 (ideal gas: not below 0).
+/// \return p as EosKind states it, cut off at -tension_limit (strong tension has no stable answer: c^2 falls below zero
+/// where gamma0 rho0 p sv^2 = -c0^2; a solid fails long before); c^2 not below least_sound_speed_ratio_squared c0^2 (ideal gas: not below 0).
 /// T: double, or a pack whose lanes share the material.
 template <class T>
 KOKKOS_INLINE_FUNCTION EosState<T> equationOfState(Material const &material, T specific_volume, T internal_energy)
@@ -84,6 +85,7 @@ KOKKOS_INLINE_FUNCTION EosState<T> equationOfState(Material const &material, T s
     state = detail::idealGas(material, specific_volume, internal_energy);
   double const floor = least_sound_speed_ratio_squared * material.sound_speed0 * material.sound_speed0;
   state.sound_speed_squared = Math::max(state.sound_speed_squared, T(floor));
+  state.pressure = Math::max(state.pressure, T(-material.tension_limit));
   return state;
 }
 

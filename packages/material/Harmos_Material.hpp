@@ -26,15 +26,16 @@ struct Material
 {
   EosKind eos = EosKind::Stiffened;
   StrengthKind strength = StrengthKind::None;
-  double density0 = 0.0;      // [kg/m^3]
-  double sound_speed0 = 0.0;  // c0 [m/s]
-  double slope = 0.0;         // s
-  double gruneisen = 0.0;     // gamma0; ideal gas: gamma
-  double energy0 = 0.0;       // internal energy of the reference state [J/kg]
-  double shear_modulus = 0.0; // G [Pa]
-  double yield = 0.0;         // [Pa]
-  double hardening = 0.0;     // [Pa]
-  int rigid_body = -1;        // number of the rigid body that this material is; -1: deformable
+  double density0 = 0.0;        // [kg/m^3]
+  double sound_speed0 = 0.0;    // c0 [m/s]
+  double slope = 0.0;           // s
+  double gruneisen = 0.0;       // gamma0; ideal gas: gamma
+  double energy0 = 0.0;         // internal energy of the reference state [J/kg]
+  double shear_modulus = 0.0;   // G [Pa]
+  double yield = 0.0;           // [Pa]
+  double hardening = 0.0;       // [Pa]
+  double tension_limit = 1e300; // pressure does not fall below -tension_limit [Pa]
+  int rigid_body = -1;          // number of the rigid body that this material is; -1: deformable
 };
 
 } // namespace Harmos

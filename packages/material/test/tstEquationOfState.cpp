@@ -123,6 +123,25 @@ TEST(EquationOfState, StrongTension_keepsASoundSpeed)
   EXPECT_DOUBLE_EQ(state.sound_speed_squared, 1e-4 * m.sound_speed0 * m.sound_speed0);
 }
 
+TEST(EquationOfState, TensionLimit_cutsThePressureOffAndNothingElse)
+{
+  Material free;
+  free.eos = EosKind::MieGruneisen;
+  free.density0 = 2703.0;
+  free.sound_speed0 = 5240.0;
+  free.slope = 1.4;
+  free.gruneisen = 1.97;
+  Material limited = free;
+  limited.tension_limit = 1.2e9;
+  double const mild = 1.01 / 2703.0, strong = 1.10 / 2703.0;
+  EXPECT_GT(equationOfState(free, mild, 0.0).pressure, -1.2e9);
+  EXPECT_EQ(equationOfState(limited, mild, 0.0).pressure, equationOfState(free, mild, 0.0).pressure);
+  EXPECT_LT(equationOfState(free, strong, 0.0).pressure, -5e9);
+  EXPECT_EQ(equationOfState(limited, strong, 0.0).pressure, -1.2e9);
+  EXPECT_EQ(equationOfState(limited, strong, 0.0).sound_speed_squared,
+            equationOfState(free, strong, 0.0).sound_speed_squared);
+}
+
 TEST(EquationOfState, StiffenedWithoutGruneisen_isLinearInDensity)
 {
   Material m = stiff();
