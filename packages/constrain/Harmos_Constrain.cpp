@@ -96,7 +96,7 @@ ContactRows findRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMater
                      ConstraintOptions const &options, Exchange const &exchange)
 {
   InterfaceSegments const segments = findInterfaceSegments(mesh, pairs, regions, conditions);
-  SegmentBins const bins = binSegments(segments, exchange);
+  SegmentBins const bins = binSegments(mesh, segments, exchange);
   View<RayHit *> const hit = castRays(mesh, segments, bins);
   ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, table, options);
   exchangeContactRows(mesh, pairs, table, exchange, rows);

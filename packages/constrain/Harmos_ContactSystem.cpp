@@ -15,7 +15,6 @@ KOKKOS_INLINE_FUNCTION int dofOf(ContactRow const &row, int slot)
   return side[slot & 3];
 }
 
-
 /// Number the dof nodes that rows touch and list the rows at each, in key order.
 void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &system)
 {

@@ -19,7 +19,8 @@ struct MultiplierSolution
 
 /// \brief Solve r = b + G M^-1 P G^T p >= 0, p >= 0, p r = 0 (tied rows: r = 0, p of any sign).
 ///
-/// Accelerated projected gradient in the metric D + J M_B^-1 J^T: D the row sums of the deformable part, J M_B^-1 J^T
+/// Without free rigid bodies: conjugate gradients with projections (Harmos_ConjugateSolver.hpp). With them:
+/// accelerated projected gradient in the metric D + J M_B^-1 J^T: D the row sums of the deformable part, J M_B^-1 J^T
 /// the exact part of the free rigid bodies, which couples all rows of a body. The metric bounds the operator, so that
 /// the step is one. Its projection is a small monotone system in the bodies' three velocities each, solved by Newton's
 /// method (body_projection); without free bodies it is p = max(0, y - r/D). The momentum restarts when it points

@@ -4,14 +4,17 @@
 namespace Harmos
 {
 
-SegmentBins binSegments(InterfaceSegments const &segments, Exchange const &exchange)
+SegmentBins binSegments(Mesh const &mesh, InterfaceSegments const &segments, Exchange const &exchange)
 {
   int const count = segments.count;
   View<InterfaceSegment *> const segment = segments.segment;
   double largest = 0.0;
   Kokkos::parallel_reduce(
       "Harmos::constrain::largestSegment", RangePolicy(0, count),
-      KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, Math::max(segment(i).length, segment(i).cell_size)); },
+      KOKKOS_LAMBDA(int i, double &l) {
+        if (mesh.cell_depth(segment(i).cell) == 0)
+          l = Math::max(l, Math::max(segment(i).length, segment(i).cell_size));
+      },
       Kokkos::Max<double>(largest));
   largest = exchange.max(count > 0 ? largest : 0.0);
 

@@ -44,8 +44,8 @@ struct SegmentBins
   }
 };
 
-/// Collective: the bin size is agreed upon.
-SegmentBins binSegments(InterfaceSegments const &segments, Exchange const &exchange);
+/// Collective: the bin size is agreed upon. Own cells decide it: the halo's rim may hold segments that are not there.
+SegmentBins binSegments(Mesh const &mesh, InterfaceSegments const &segments, Exchange const &exchange);
 
 } // namespace Harmos
 

@@ -21,7 +21,7 @@ std::vector<InterfaceSegment> segmentsOf(TinyScene const &scene)
 std::vector<RayHit> hitsOf(TinyScene const &scene)
 {
   InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions);
-  auto const hit = castRays(scene.mesh, s, binSegments(s, serialExchange()));
+  auto const hit = castRays(scene.mesh, s, binSegments(scene.mesh, s, serialExchange()));
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hit);
   return std::vector<RayHit>(host.data(), host.data() + s.count);
 }

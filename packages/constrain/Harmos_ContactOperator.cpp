@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ContactOperator.hpp>
+
+namespace Harmos
+{
+
+namespace
+{
+
+/// Velocity of a row along its direction k by the changes of dof and body velocities.
+KOKKOS_INLINE_FUNCTION double rowVelocity(ContactSystem const &s, View<double *[2]> const &change,
+                                          View<double *[3]> const &body_change, int row, int k)
+{
+  Vector2 v{0.0, 0.0};
+  for (int c = 0; c < 8; ++c)
+  {
+    int const dof = s.dof(row, c);
+    if (dof >= 0)
+      v += s.weight(row, c) * Vector2{change(dof, 0), change(dof, 1)};
+  }
+  double r = dot(s.direction(row, k), v);
+  for (int side = 0; side < 2; ++side)
+    for (int c = 0; s.free_body(row, side) >= 0 && c < 3; ++c)
+      r += s.bodyJacobian(row, side, k, c) * body_change(s.free_body(row, side), c);
+  return r;
+}
+
+/// Give the halo's rows their owners' impulses.
+void shareImpulses(ContactRows const &rows, Exchange const &exchange, View<double **> const &travelling,
+                   View<double *[2]> const &impulse)
+{
+  if (exchange.size() == 1)
+    return;
+  Kokkos::parallel_for(
+      "Harmos::constrain::packImpulses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
+        travelling(r, 0) = impulse(r, 0);
+        travelling(r, 1) = impulse(r, 1);
+      });
+  exchange.updateRows(rows.offset, travelling, 3);
+  Kokkos::parallel_for(
+      "Harmos::constrain::unpackImpulses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
+        impulse(r, 0) = travelling(r, 0);
+        impulse(r, 1) = travelling(r, 1);
+      });
+}
+
+} // namespace
+
+ContactOperator::ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange)
+    : system_(system), rows_(rows), exchange_(exchange),
+      travelling_("Harmos::constrain::travelling", exchange.size() > 1 ? system.num_rows : 0, 2),
+      change_("Harmos::constrain::change", system.num_dofs),
+      body_change_("Harmos::constrain::body_change", system.num_free)
+{
+}
+
+void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> const &out) const
+{
+  shareImpulses(rows_, exchange_, travelling_, x);
+  velocityChange(system_, x, change_);
+  bodyVelocityChange(system_, x, exchange_, body_change_);
+  ContactSystem const s = system_;
+  View<double *[2]> const change = change_, result = out;
+  View<double *[3]> const body_change = body_change_;
+  Kokkos::parallel_for(
+      "Harmos::constrain::product", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+        int const row = s.own(i);
+        for (int k = 0; k < s.directions(row); ++k)
+          result(row, k) = rowVelocity(s, change, body_change, row, k);
+      });
+}
+
+void ContactOperator::residual(View<double *[2]> const &x, View<double *[2]> const &out) const
+{
+  product(x, out);
+  ContactSystem const s = system_;
+  View<double *[2]> const result = out;
+  Kokkos::parallel_for(
+      "Harmos::constrain::addPredicted", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+        int const row = s.own(i);
+        for (int k = 0; k < s.directions(row); ++k)
+          result(row, k) += s.predicted(row, k);
+      });
+}
+
+double ContactOperator::violation(View<double *[2]> const &p, View<double *[2]> const &r) const
+{
+  ContactSystem const s = system_;
+  View<double *[2]> const impulse = p, residual = r;
+  double violation = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::violation", RangePolicy(0, s.num_own),
+      KOKKOS_LAMBDA(int i, double &largest) {
+        int const row = s.own(i);
+        for (int k = 0; k < s.directions(row); ++k)
+        {
+          double const value = residual(row, k);
+          largest = Math::max(largest, s.tied(row) || impulse(row, k) > 0.0 ? Math::fabs(value) : -value);
+        }
+      },
+      Kokkos::Max<double>(violation));
+  return exchange_.max(s.num_own > 0 ? Math::max(violation, 0.0) : 0.0);
+}
+
+double ContactOperator::largestPredicted(double dt) const
+{
+  ContactSystem const s = system_;
+  View<ContactRow *> const row_of = rows_.row;
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::largestPredicted", RangePolicy(0, s.num_own),
+      KOKKOS_LAMBDA(int i, double &l) {
+        int const row = s.own(i);
+        double const closing = s.tied(row) ? 0.0 : Math::max(row_of(row).gap, 0.0) / dt;
+        l = Math::max(l, Math::max(Math::fabs(s.predicted(row, 0) - closing), Math::fabs(s.predicted(row, 1))));
+      },
+      Kokkos::Max<double>(largest));
+  return exchange_.max(s.num_own > 0 ? largest : 0.0);
+}
+
+} // namespace Harmos

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CONTACT_OPERATOR_HPP
+#define HARMOS_CONTACT_OPERATOR_HPP
+
+#include <Harmos_ContactSystem.hpp>
+
+namespace Harmos
+{
+
+/// The operator A = G M^-1 P G^T of a contact system, applied without a matrix, with the exchange of multipliers.
+class ContactOperator
+{
+public:
+  ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange);
+
+  /// \param x Impulses; the halo rows' are replaced by their owners'. \param out Own rows: A x. Collective.
+  void product(View<double *[2]> const &x, View<double *[2]> const &out) const;
+
+  /// Own rows: b + A x. Collective.
+  void residual(View<double *[2]> const &x, View<double *[2]> const &out) const;
+
+  /// Velocity changes of the last product: dofs, and free bodies.
+  View<double *[2]> const &change() const { return change_; } View<double *[3]> const &bodyChange() const {
+    return body_change_;
+  }
+
+  /// Largest |r| over rows with p > 0 or tied, and max(0, -r) over the others; the same on all ranks. Collective.
+  double violation(View<double *[2]> const &p, View<double *[2]> const &r) const;
+
+  /// Largest predicted |G v*| of all ranks' rows. Collective.
+  double largestPredicted(double dt) const;
+
+private:
+  ContactSystem const &system_;
+  ContactRows const &rows_;
+  Exchange const &exchange_;
+  View<double **> travelling_; // impulses of all rows, as the exchange wants them
+  View<double *[2]> change_;
+  View<double *[3]> body_change_;
+};
+
+} // namespace Harmos
+
+#endif
