@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Slivers neither shorten the time step nor blow up; the stable Courant number of xfem is that of single."""
+from harness import ROOT, check, clean, harmos, run
+
+DECK = ROOT / "test/verification/decks/sliver.yaml"
+
+
+def box(sliver, **more):
+    """The interface `sliver` of a cell beyond the cell face at x = 8: the left block reaches into the next cells."""
+    x = 8.0 + sliver
+    settings = {"bodies/left/center": f"[{x / 2!r}, 2.0]", "bodies/left/size": f"[{x!r}, 4.0]",
+                "bodies/right/center": f"[{(16.0 + x) / 2!r}, 2.0]", "bodies/right/size": f"[{16.0 - x!r}, 4.0]", **more}
+    return harmos(DECK, settings)
+
+
+def test_sliver_runs_ten_thousand_cycles_without_a_shorter_step():
+    plain = box(0.0)
+    for merge in (0.0, 1e-6):
+        r = box(1e-10, **{"numerics/remap/merge_below": merge})
+        check(f"first time step against no sliver, merging below {merge}", abs(r["dt"][1] / plain["dt"][1] - 1.0), 1e-9)
+        check("least time step against no sliver", abs(min(r["dt"][1:]) / min(plain["dt"][1:]) - 1.0), 1e-3)
+        check("kinetic energy against its first peak", max(r["kinetic_energy"][50:]) / max(r["kinetic_energy"][:20]), 1.0)
+        check("mass", r.summary["mass_error"], 1e-11)
+        check("momentum", r.summary["momentum_error"], 1e-11)
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        clean(r)
+    clean(plain)
+
+
+def test_courant_number_near_one_is_stable_with_slivers_as_in_single():
+    # Without viscosity nothing hides an instability: kinetic energy would grow by orders of magnitude.
+    bare = {"numerics/linear_viscosity": 0.0, "numerics/quadratic_viscosity": 0.0, "numerics/hourglass_viscosity": 0.0,
+            "numerics/remap/merge_below": 0.0, "numerics/courant": 0.95, "run/max_cycles": 2000}
+    for kinematics in ("xfem", "single"):
+        r = box(1e-12, kinematics=kinematics, **bare)
+        stored = 0.5 * 0.001**2 * 32.0
+        check(f"{kinematics}: largest kinetic energy over the stored one", max(r["kinetic_energy"]) / stored, 1.0)
+        clean(r)
+
+
+run(globals())
