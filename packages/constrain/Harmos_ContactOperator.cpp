@@ -36,7 +36,7 @@ void shareImpulses(ContactRows const &rows, Exchange const &exchange, View<doubl
         travelling(r, 0) = impulse(r, 0);
         travelling(r, 1) = impulse(r, 1);
       });
-  exchange.updateRows(rows.offset, travelling, 3);
+  exchange.updateRows(rows.offset, travelling, row_halo);
   Kokkos::parallel_for(
       "Harmos::constrain::unpackImpulses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
         impulse(r, 0) = travelling(r, 0);

@@ -309,7 +309,7 @@ void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyT
   Kokkos::parallel_for(
       "Harmos::constrain::packRows", RangePolicy(0, rows.count),
       KOKKOS_LAMBDA(int i) { packRow(mesh, packed(i), item, i); });
-  exchange.exchangeRows(rows.offset, item, 3);
+  exchange.exchangeRows(rows.offset, item, row_halo);
 
   rows.count = static_cast<int>(item.extent(0));
   rows.row = View<ContactRow *>("Harmos::constrain::row", rows.count);

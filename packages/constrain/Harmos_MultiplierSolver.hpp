@@ -19,18 +19,19 @@ struct MultiplierSolution
 
 /// \brief Solve r = b + G M^-1 P G^T p >= 0, p >= 0, p r = 0 (tied rows: r = 0, p of any sign).
 ///
-/// Without free rigid bodies: conjugate gradients with projections (Harmos_ConjugateSolver.hpp). With them:
-/// accelerated projected gradient in the metric D + J M_B^-1 J^T: D the row sums of the deformable part, J M_B^-1 J^T
-/// the exact part of the free rigid bodies, which couples all rows of a body. The metric bounds the operator, so that
-/// the step is one. Its projection is a small monotone system in the bodies' three velocities each, solved by Newton's
-/// method (body_projection); without free bodies it is p = max(0, y - r/D). The momentum restarts when it points
-/// uphill.
+/// Modified proportioning with reduced gradient projections (MPRGP), for p.A p/2 + b.p over p >= 0 in the scaled
+/// unknowns sqrt(D) p, D the row sums of the deformable part of A = G M^-1 P G^T. The scaled operator's norm is at most
+/// one, plus the trace of the free rigid bodies' part, so that projected gradient steps of 1.9 over that bound are
+/// safe. Conjugate gradients in the free set; a step that meets a bound ends in a projected gradient step; bound rows
+/// are let go when their gradient outweighs the free one. The few large eigenvalues that a rigid body adds cost
+/// conjugate gradients a few iterations, where gradient methods crawl. Convergence is judged on the residual computed
+/// afresh.
 ///
 /// Residual: the largest |r| over rows with p > 0 or tied, and max(0, -r) over the others, relative to
 /// max(largest |G v*|, 1e-6 speed_scale). Every comparison is between numbers that do not depend on ranks.
 ///
 /// \param rows Their `offset` carries the multipliers between ranks.
-/// Beck & Teboulle, SIAM J. Imaging Sci. 2 (2009) 183; O'Donoghue & Candes, Found. Comput. Math. 15 (2015) 715.
+/// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23-43.
 MultiplierSolution solveMultipliers(ContactSystem const &system, ContactRows const &rows, double dt,
                                     ConstraintOptions const &options, Exchange const &exchange);
 
