@@ -1,19 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The packages in the order of the data flow: each links only those before it. This list is the layering.
-set(HARMOS_KERNEL_PACKAGES geometry mesh material reconstruct lagrange constrain remap)
-set(HARMOS_PACKAGES ${HARMOS_KERNEL_PACKAGES})
-
-if(HARMOS_ENABLE_TRILINOS)
-  list(APPEND HARMOS_PACKAGES parallel io)
-  include(FindTrilinosTargets)
-else()
-  find_package(Kokkos REQUIRED)
-  include(FixKokkosTarget)
-endif()
-
-if(HARMOS_ENABLE_TESTS)
-  find_package(GTest REQUIRED)
-endif()
-if(HARMOS_ENABLE_BENCHMARKS)
-  find_package(benchmark REQUIRED)
-endif()
+# The packages in the order of the data flow: each may use only those before it. REQUIRED ones are the kernels
+# (Kokkos alone); OPTIONAL ones need Trilinos. What each uses stands in its own cmake/Dependencies.cmake. These files are
+# TriBITS' own; HarmosTribits.cmake reads them in a build without TriBITS.
+tribits_package_define_dependencies(
+  SUBPACKAGES_DIRS_CLASSIFICATIONS_OPTREQS
+    Geometry     packages/geometry     PT  REQUIRED
+    Mesh         packages/mesh         PT  REQUIRED
+    Material     packages/material     PT  REQUIRED
+    Reconstruct  packages/reconstruct  PT  REQUIRED
+    Lagrange     packages/lagrange     PT  REQUIRED
+    Constrain    packages/constrain    PT  REQUIRED
+    Remap        packages/remap        PT  REQUIRED
+    Parallel     packages/parallel     PT  OPTIONAL
+    Io           packages/io           PT  OPTIONAL
+)

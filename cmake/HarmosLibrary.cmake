@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 include(GNUInstallDirs)
 
-# harmos_add_package(<name> [SOURCES ...] [DEPENDS ...] [LINK ...])
+# harmos_add_package(<name> [SOURCES ...])
 # Library harmos_<name> (alias Harmos::<name>) in the current folder. Without SOURCES: an interface library.
+# It links what cmake/Dependencies.cmake names.
 function(harmos_add_package name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
   set(target harmos_${name})
-  set(links ${ARG_LINK})
-  foreach(dependency IN LISTS ARG_DEPENDS)
-    list(APPEND links Harmos::${dependency})
-  endforeach()
+  harmos_package_links(links)
   if(ARG_SOURCES)
     add_library(${target} ${ARG_SOURCES})
     set(scope PUBLIC)
@@ -29,30 +27,41 @@ function(harmos_add_package name)
     FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN bench EXCLUDE PATTERN cmake EXCLUDE)
 endfunction()
 
+# The main() of all tests, compiled once: harmos_test_main sets up Kokkos, harmos_test_main_mpi MPI as well.
+function(harmos_add_test_mains)
+  add_library(harmos_test_main OBJECT ${PROJECT_SOURCE_DIR}/cmake/TestMain.cpp)
+  target_link_libraries(harmos_test_main PUBLIC GTest::gtest Kokkos::kokkos)
+  if(HARMOS_ENABLE_TRILINOS)
+    add_library(harmos_test_main_mpi OBJECT ${PROJECT_SOURCE_DIR}/cmake/TestMainMpi.cpp)
+    target_link_libraries(harmos_test_main_mpi PUBLIC GTest::gtest Harmos::Trilinos)
+  endif()
+endfunction()
+
 # harmos_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [RANKS n ...])
 # One GoogleTest executable with Kokkos set up by main; with RANKS, run by mpiexec on each number of ranks.
+# Labels: unit by default, mpi with RANKS.
 function(harmos_add_test name)
   if(NOT HARMOS_ENABLE_TESTS)
     return()
   endif()
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS;RANKS" ${ARGN})
-  if(NOT ARG_LABELS)
+  if(NOT ARG_LABELS AND ARG_RANKS)
+    set(ARG_LABELS mpi)
+  elseif(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_compile_options(${name} PRIVATE -Wall -Wextra $<$<BOOL:${HARMOS_WARNINGS_AS_ERRORS}>:-Werror>)
   if(ARG_RANKS)
-    target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/TestMainMpi.cpp)
-    target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest Harmos::Trilinos)
+    target_link_libraries(${name} PRIVATE ${ARG_LINK} harmos_test_main_mpi)
     foreach(ranks IN LISTS ARG_RANKS)
       add_test(NAME ${name}_${ranks}
-               COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --allow-run-as-root ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+               COMMAND ${MPIEXEC_EXECUTABLE} ${HARMOS_MPIEXEC_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
                        $<TARGET_FILE:${name}>)
       set_tests_properties(${name}_${ranks} PROPERTIES LABELS "${ARG_LABELS}" PROCESSORS ${ranks} TIMEOUT 600)
     endforeach()
   else()
-    target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/TestMain.cpp)
-    target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest)
+    target_link_libraries(${name} PRIVATE ${ARG_LINK} harmos_test_main)
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
   endif()

@@ -14,7 +14,7 @@ namespace Harmos
 
 bool Schedule::due(long long cycle, double time, double wall, bool at_end)
 {
-  bool due = at_end && cadence_.at_end;
+  bool due = false;
   if (cadence_.every_cycles > 0 && cycle % cadence_.every_cycles == 0)
     due = true;
   if (cadence_.every_time > 0.0 && time >= next_time_ * (1.0 - 1e-12))
@@ -27,7 +27,8 @@ bool Schedule::due(long long cycle, double time, double wall, bool at_end)
     due = true;
     last_wall_ = wall;
   }
-  return due;
+  regular_ = due;
+  return due || (at_end && cadence_.at_end);
 }
 
 void Schedule::skipTo(double time, double wall)
@@ -66,9 +67,15 @@ LedgerErrors ledgerErrors(Ledger const &l, Totals const &t)
 namespace
 {
 
-CsvStart tableStart(long long restart_cycle)
+CsvStart tableStart(OutputStart const &start)
 {
-  return restart_cycle < 0 ? CsvStart::fresh() : CsvStart::after(restart_cycle);
+  return start.append ? CsvStart::after(start.history_ended ? start.cycle - 1 : start.cycle) : CsvStart::fresh();
+}
+
+std::unique_ptr<PointLog> pointLog(std::vector<PointSpec> const &points, std::string const &path, char const *header,
+                                   bool writes, OutputStart const &start)
+{
+  return points.empty() ? nullptr : std::make_unique<PointLog>(path, header, writes, tableStart(start));
 }
 
 std::vector<std::string> fieldNames(Deck const &deck)
@@ -88,27 +95,32 @@ MPI_Comm rawComm(Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
 } // namespace
 
 RunOutput::RunOutput(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm,
-                     long long restart_cycle, double restart_time)
+                     OutputStart const &start)
     : deck_(deck), directory_(options.directory), mpi_(rawComm(comm)), names_(fieldNames(deck)),
       all_names_(materialNames(deck)), history_due_(deck.output.history), fields_due_(deck.output.fields),
       checkpoint_due_(deck.output.checkpoint),
-      history_(directory_ + "/history.csv", names_, comm->getRank() == 0, tableStart(restart_cycle)),
-      contacts_(directory_ + "/contact.csv", comm->getRank() == 0, tableStart(restart_cycle))
+      history_(directory_ + "/history.csv", names_, comm->getRank() == 0, tableStart(start)),
+      contacts_(directory_ + "/contact.csv", comm->getRank() == 0, tableStart(start)),
+      probes_(pointLog(deck.probes, directory_ + "/probes.csv", PointLog::probe_header, comm->getRank() == 0, start)),
+      tracers_(
+          pointLog(deck.tracers, directory_ + "/tracers.csv", PointLog::tracer_header, comm->getRank() == 0, start))
 {
   Cadence const &f = deck.output.fields;
-  if (f.every_cycles > 0 || f.every_time > 0.0 || f.every_wall_seconds > 0.0 || f.at_end)
+  bool const wanted = f.every_cycles > 0 || f.every_time > 0.0 || f.every_wall_seconds > 0.0 || f.at_end;
+  if (wanted && deck.output.xdmf)
   {
     FieldOutputOptions field_options;
     field_options.vtu = deck.output.vtu;
-    fields_ = std::make_unique<FieldOutput>(mpi_, directory_, all_names_, field_options, restart_cycle);
+    long long const last = start.fields_ended ? start.cycle - 1 : start.cycle;
+    fields_ = std::make_unique<FieldOutput>(mpi_, directory_, all_names_, field_options, start.append ? last : -1);
   }
-  if (restart_cycle >= 0)
+  if (start.restarted)
   {
-    history_due_.skipTo(restart_time, 0.0);
-    fields_due_.skipTo(restart_time, 0.0);
+    history_due_.skipTo(start.time, 0.0);
+    fields_due_.skipTo(start.time, 0.0);
   }
   // No checkpoint of the state that a run starts from: the deck, or the checkpoint that was read, is one.
-  checkpoint_due_.skipTo(std::max(restart_time, 0.0), 0.0);
+  checkpoint_due_.skipTo(start.restarted ? start.time : 0.0, 0.0);
 }
 
 void RunOutput::write(Scene const &scene, CycleState const &state, CycleReport const &report, Ledger &ledger,
@@ -118,6 +130,8 @@ void RunOutput::write(Scene const &scene, CycleState const &state, CycleReport c
   {
     writeHistory(scene, state, report, ledger);
     writeContacts(scene, state, report);
+    writeProbes(scene, state);
+    writeTracers(scene, state);
   }
   if (fields_due_.due(state.cycle, state.time, wall, at_end) && fields_)
     fields_->write(state.cycle, state.time,
@@ -184,6 +198,63 @@ void RunOutput::writeContacts(Scene const &scene, CycleState const &state, Cycle
   contacts_.write(state.cycle, state.time, entries);
 }
 
+std::string RunOutput::materialName(int material) const
+{
+  return material < 0 ? "void" : all_names_[static_cast<std::size_t>(material)];
+}
+
+void RunOutput::writeProbes(Scene const &scene, CycleState const &state)
+{
+  if (!probes_)
+    return;
+  std::vector<Vector2> points;
+  for (PointSpec const &probe : deck_.probes)
+    points.push_back(probe.position);
+  if (probe_cell_.empty() || scene.kinematics == Kinematics::Lagrangian)
+    probe_cell_ = locatePoints(scene.mesh, points, *scene.exchange);
+  std::vector<PointSample> const samples =
+      samplePoints(pointField(scene, state), points, probe_cell_, std::vector<int>(points.size(), -1), *scene.exchange);
+  std::vector<PointEntry> entries;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    PointSample const &s = samples[i];
+    entries.push_back(
+        {deck_.probes[i].name,
+         {},
+         materialName(s.material),
+         {s.density, s.pressure, s.velocity[0], s.velocity[1], s.internal_energy, s.plastic_strain, s.von_mises}});
+  }
+  probes_->write(state.cycle, state.time, entries);
+}
+
+void RunOutput::writeTracers(Scene const &scene, CycleState const &state)
+{
+  if (!tracers_)
+    return;
+  std::vector<Vector2> points;
+  std::vector<long long> cells;
+  std::vector<int> materials;
+  for (Tracer const &tracer : state.tracers)
+  {
+    points.push_back(tracer.position);
+    cells.push_back(tracer.cell);
+    materials.push_back(tracer.material);
+  }
+  std::vector<PointSample> const samples =
+      samplePoints(pointField(scene, state), points, cells, materials, *scene.exchange);
+  std::vector<PointEntry> entries;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    PointSample const &s = samples[i];
+    Tracer const &t = state.tracers[i];
+    entries.push_back({deck_.tracers[i].name,
+                       {t.position[0], t.position[1], t.velocity[0], t.velocity[1]},
+                       s.inside ? materialName(s.material) : "outside",
+                       {s.density, s.pressure, s.internal_energy, s.plastic_strain, s.von_mises}});
+  }
+  tracers_->write(state.cycle, state.time, entries);
+}
+
 std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, Ledger const &ledger)
 {
   CheckpointScalars scalars;
@@ -194,6 +265,12 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   scalars.material_names = all_names_;
   scalars.bodies = state.bodies;
   scalars.arrays["ledger"] = ledger.values();
+  scalars.arrays["ended"] = {history_due_.regular() ? 0.0 : 1.0, fields_due_.regular() ? 0.0 : 1.0};
+  std::vector<double> tracers;
+  for (Tracer const &t : state.tracers)
+    tracers.insert(tracers.end(), {t.position[0], t.position[1], t.velocity[0], t.velocity[1],
+                                   static_cast<double>(t.cell), static_cast<double>(t.material)});
+  scalars.arrays["tracers"] = tracers;
   scalars.deck = deck_.yaml;
   scalars.version = version();
   last_checkpoint_ = writeCheckpoint(mpi_, directory_, scene.mesh, state.pairs, state.state, scalars);

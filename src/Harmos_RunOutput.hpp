@@ -11,6 +11,7 @@
 #include <Harmos_ContactLog.hpp>
 #include <Harmos_FieldOutput.hpp>
 #include <Harmos_History.hpp>
+#include <Harmos_PointLog.hpp>
 
 #include <memory>
 #include <string>
@@ -31,19 +32,34 @@ public:
   /// As if everything up to this time had been written.
   void skipTo(double time, double wall);
 
+  /// Whether it was due at the last cycle by its cadence, not for being the end alone: then a run that goes on from
+  /// here keeps what was written.
+  bool regular() const { return regular_; }
+
 private:
   Cadence cadence_;
+  bool regular_ = true;
   double next_time_ = 0.0;
   double last_wall_ = 0.0;
+};
+
+/// Where the files of a run begin.
+struct OutputStart
+{
+  bool restarted = false;     // from a checkpoint of cycle `cycle`
+  bool append = false;        // restarted into the folder of that checkpoint: its tables are cut and continued
+  long long cycle = 0;        // [of the checkpoint]
+  double time = 0.0;          // [s]
+  bool history_ended = false; // the run before ended there with a row that its cadence did not ask for
+  bool fields_ended = false;  // the same of the fields
 };
 
 /// The files of a run.
 class RunOutput
 {
 public:
-  /// \param restart_cycle -1: fresh; else files are cut after this cycle and continued.
   RunOutput(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm,
-            long long restart_cycle, double restart_time);
+            OutputStart const &start);
 
   /// What is due after a cycle (or before the first). Collective.
   void write(Scene const &scene, CycleState const &state, CycleReport const &report, Ledger &ledger, double wall,
@@ -57,6 +73,9 @@ public:
 private:
   void writeHistory(Scene const &scene, CycleState const &state, CycleReport const &report, Ledger &ledger);
   void writeContacts(Scene const &scene, CycleState const &state, CycleReport const &report);
+  void writeProbes(Scene const &scene, CycleState const &state);
+  void writeTracers(Scene const &scene, CycleState const &state);
+  std::string materialName(int material) const;
 
   Deck const &deck_;
   std::string directory_;
@@ -66,6 +85,8 @@ private:
   Schedule history_due_, fields_due_, checkpoint_due_;
   History history_;
   ContactLog contacts_;
+  std::unique_ptr<PointLog> probes_, tracers_; // where the deck names some
+  std::vector<long long> probe_cell_;          // of a mesh that stays
   std::unique_ptr<FieldOutput> fields_;
   std::string last_checkpoint_;
 };

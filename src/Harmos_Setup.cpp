@@ -298,6 +298,8 @@ Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange c
       interaction(a, b) = static_cast<int>(a < f && b < f ? deck.interaction[a * f + b] : Interaction::Sliding);
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
   scene.remap = deck.remap;
+  if (deck.kinematics == Kinematics::Lagrangian)
+    scene.subzone_fraction = subzoneFractions(mesh);
   if (deck.run.max_dt > 0.0)
     scene.max_dt = deck.run.max_dt;
   return scene;
@@ -322,7 +324,6 @@ CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const
     s.state.velocity = paintedVelocity(scene.mesh, bodies, painting, s.dof_nodes);
   }
   setRigidVelocities(scene, s);
-  setFirstTimeStep(deck, scene, s);
   return s;
 }
 

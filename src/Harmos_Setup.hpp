@@ -10,9 +10,6 @@
 namespace Harmos
 {
 
-/// Layers of halo cells that the cycle needs (doc/decisions/0003).
-constexpr int halo_layers = 5;
-
 /// The whole mesh of a deck: its rectilinear grid, or the blocks of its bodies (lagrangian).
 struct DeckMesh
 {
@@ -27,10 +24,11 @@ Shape makeShape(ShapeSpec const &spec);
 /// Everything that does not change: `mesh` and `exchange` are given, the rest comes from the deck.
 Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Exchange const &exchange);
 
-/// The state at time zero: painted bodies (or blocks), their velocities, the first time step.
+/// The state at time zero: painted bodies (or blocks), their velocities. Not collective: what is wrong with the bodies
+/// may show on some ranks alone.
 CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const &scene);
 
-/// The first time step of a state, or of a state that a checkpoint gave without one.
+/// The first time step of a state. Collective.
 void setFirstTimeStep(Deck const &deck, Scene const &scene, CycleState &state);
 
 } // namespace Harmos

@@ -2,23 +2,15 @@
 #include "Harmos_Simulation.hpp"
 
 #include "Harmos_Interrupt.hpp"
-#include "Harmos_Progress.hpp"
-#include "Harmos_RunOutput.hpp"
-#include "Harmos_Setup.hpp"
+#include "Harmos_Run.hpp"
 #include "Harmos_Version.hpp"
 
 #include <Harmos_DeckSchema.hpp>
-#include <Harmos_MeshBuilder.hpp>
-#include <Harmos_Partition.hpp>
 #include <Harmos_Summary.hpp>
-#include <Harmos_TpetraExchange.hpp>
 
-#include <Teuchos_CommHelpers.hpp>
-
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
-#include <filesystem>
 #include <sys/resource.h>
 
 namespace Harmos
@@ -26,138 +18,12 @@ namespace Harmos
 namespace
 {
 
-using CommRCP = Teuchos::RCP<Teuchos::Comm<int> const>;
-
-/// What a failed run tells.
-class RunFailure : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
-
-/// A run between its set-up and its summary.
-struct Run
-{
-  Run(Deck const &d, RunOptions const &o, CommRCP const &c) : deck(d), options(o), comm(c), progress(c->getRank() != 0)
-  {
-  }
-
-  Deck const &deck;
-  RunOptions const &options;
-  CommRCP comm;
-  Progress progress;
-  DeckMesh whole;
-  std::unique_ptr<Exchange> exchange;
-  Scene scene;
-  CycleState state;
-  Ledger ledger;
-  PhaseTimes times;
-  double output_seconds = 0.0;
-  std::vector<std::string> warnings;
-  Kokkos::Timer timer;
-  std::clock_t cpu_start = std::clock();
-  long long first_cycle = 0;
-  double first_time = 0.0;
-};
-
 void warn(Run &run, std::string const &text)
 {
   std::size_t const most = 100;
   if (run.warnings.size() < most)
     run.warnings.push_back(text);
   run.progress.message("warning: " + text);
-}
-
-/// Results of an earlier run are never overwritten unawares. Rank 0 looks, all ranks throw alike.
-void claimDirectory(Run &run)
-{
-  namespace fs = std::filesystem;
-  std::string problem;
-  if (run.comm->getRank() == 0)
-  {
-    std::error_code error;
-    fs::path const directory = run.options.directory;
-    bool const resumes = !run.options.restart.empty();
-    if (fs::exists(directory / "history.csv", error) && !run.options.force && !resumes)
-      problem = "output directory '" + directory.string() +
-                "' holds results; use --force to overwrite them, or another --output";
-    else
-    {
-      fs::create_directories(directory, error);
-      if (error)
-        problem = "cannot make output directory '" + directory.string() + "': " + error.message();
-      else if (!resumes)
-        for (char const *stale : {"summary.json", "fields.xdmf"})
-          fs::remove(directory / stale, error);
-    }
-  }
-  int length = static_cast<int>(problem.size());
-  Teuchos::broadcast(*run.comm, 0, 1, &length);
-  problem.resize(length);
-  if (length > 0)
-  {
-    Teuchos::broadcast(*run.comm, 0, length, &problem[0]);
-    throw DeckError(problem);
-  }
-}
-
-Mesh makeLocalMesh(Run &run)
-{
-  run.whole = makeMesh(run.deck);
-  int const ranks = run.comm->getSize();
-  if (ranks == 1)
-  {
-    run.exchange = std::make_unique<Exchange>();
-    return buildMesh(run.whole.mesh);
-  }
-  if (run.deck.kinematics == Kinematics::Lagrangian)
-    throw DeckError("kinematics: lagrangian runs on one rank only (" + std::to_string(ranks) +
-                    " given): its blocks share no nodes that a halo could follow");
-  if (static_cast<std::size_t>(ranks) > run.whole.mesh.cell.size())
-    throw DeckError("mesh: " + std::to_string(run.whole.mesh.cell.size()) + " cells cannot be shared by " +
-                    std::to_string(ranks) + " ranks");
-  Mesh const mesh =
-      buildLocalMesh(run.whole.mesh, partitionCells(run.whole.mesh, ranks), run.comm->getRank(), halo_layers);
-  run.exchange = std::make_unique<TpetraExchange>(run.comm, mesh);
-  return mesh;
-}
-
-/// The state from a checkpoint: the same bits that the interrupted run had.
-void restoreState(Run &run, CheckpointScalars const &scalars, MPI_Comm mpi)
-{
-  if (scalars.material_names != materialNames(run.deck))
-    throw DeckError("--restart " + run.options.restart + ": its materials are not those of the deck");
-  if (scalars.kinematics != run.deck.kinematics)
-    throw DeckError("--restart " + run.options.restart + ": its kinematics is not that of the deck");
-  CheckpointState read = readCheckpoint(mpi, run.options.restart, run.scene.mesh);
-  CycleState &s = run.state;
-  s.pairs = read.pairs;
-  s.state.record = read.record;
-  s.state.centroid = read.centroid;
-  s.dof_nodes = buildDofNodes(run.scene.mesh, run.deck.kinematics, read.record, s.pairs);
-  s.state.velocity = dofVelocities(s.pairs, s.dof_nodes, read.corner_velocity);
-  s.bodies = scalars.bodies;
-  s.time = scalars.time;
-  s.cycle = scalars.cycle;
-  prepareWork(s.pairs, s.dof_nodes, s.work);
-  computeNodeAltitudes(run.scene.mesh, s.work);
-  s.dt = scalars.dt;
-  run.ledger = Ledger::fromValues(scalars.arrays.at("ledger"));
-  run.first_cycle = s.cycle;
-  run.first_time = s.time;
-}
-
-void startLedger(Run &run)
-{
-  Totals const totals = computeTotals(run.scene, run.state, static_cast<int>(run.deck.fields.size()), false);
-  Ledger &l = run.ledger;
-  l.energy0 = totals.kinetic_energy + totals.internal_energy;
-  l.mass0 = totals.mass;
-  l.momentum0_x = totals.momentum_x;
-  l.momentum0_y = totals.momentum_y;
-  l.noteErrors(0.0, 0.0, 0.0, l.energy0, totals.speed_momentum);
-  if (!(totals.mass > 0.0) && run.state.bodies.empty())
-    throw DeckError("bodies: no body has any mass inside of the mesh");
 }
 
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
@@ -199,17 +65,23 @@ std::string placeOf(Run const &run, int cell, int material)
 }
 
 /// All ranks throw when one has a cause; the lowest rank's words are used.
-void throwTogether(Run const &run, std::string cause)
+void throwTogether(Run const &run, std::string const &cause)
 {
-  int mine = cause.empty() ? run.comm->getSize() : run.comm->getRank(), first = mine;
-  Teuchos::reduceAll(*run.comm, Teuchos::REDUCE_MIN, 1, &mine, &first);
-  if (first == run.comm->getSize())
-    return;
-  int length = static_cast<int>(cause.size());
-  Teuchos::broadcast(*run.comm, first, 1, &length);
-  cause.resize(length);
-  Teuchos::broadcast(*run.comm, first, length, &cause[0]);
-  throw RunFailure(cause);
+  std::string const first = firstCause(*run.comm, cause);
+  if (!first.empty())
+    throw RunFailure(first);
+}
+
+/// The run would crawl for ever: some cell shrinks or some speed grows without bound. The rank of the limiting pair
+/// names it.
+void failByTimeStep(Run const &run)
+{
+  TimeStepLimit const &limit = run.state.limit;
+  bool const mine = limit.cell >= 0 && limit.dt == run.exchange->min(limit.dt);
+  char text[80];
+  std::snprintf(text, sizeof text, "cycle %lld: the time step %.3e s is too small", run.state.cycle, run.state.dt);
+  throwTogether(run, mine ? std::string(text) + ": set by " + placeOf(run, limit.cell, limit.material) : "");
+  throw RunFailure(text);
 }
 
 /// What makes a state useless stops the run: with cycle, cell, material and cause.
@@ -228,19 +100,12 @@ void checkCycle(Run const &run, CycleReport const &report)
   if (!cause.empty())
     cause = "cycle " + std::to_string(run.state.cycle) + ": " + cause;
   throwTogether(run, cause);
-  // Below this a run would crawl for ever: some cell shrinks or some speed grows without bound.
-  double const smallest = 1e-7 * run.deck.run.end_time / 1e3;
-  if (!(run.state.dt > smallest))
-    throwTogether(run, "cycle " + std::to_string(run.state.cycle) + ": the time step " + std::to_string(run.state.dt) +
-                           " s is too small" +
-                           (run.state.limit.cell >= 0
-                                ? ": set by " + placeOf(run, run.state.limit.cell, run.state.limit.material)
-                                : ""));
+  if (!(run.state.dt > 1e-10 * run.deck.run.end_time))
+    failByTimeStep(run);
 }
 
-void writeRunSummary(Run const &run, RunOutput const &output, std::string const &status)
+void writeRunSummary(Run const &run, std::string const &status)
 {
-  (void)output;
   Summary s;
   s.status = status;
   s.cycles = run.state.cycle;
@@ -258,7 +123,8 @@ void writeRunSummary(Run const &run, RunOutput const &output, std::string const 
   s.phases = {{"reconstruct", run.times.reconstruct}, {"lagrange", run.times.lagrange},
               {"constrain", run.times.constrain},     {"remap", run.times.remap},
               {"exchange", run.times.exchange},       {"output", run.output_seconds}};
-  s.pair_steps_per_second = s.wall_seconds > 0.0 ? run.ledger.pair_steps / s.wall_seconds : 0.0;
+  s.pair_steps_per_second =
+      s.wall_seconds > 0.0 ? (run.ledger.pair_steps - run.first_pair_steps) / s.wall_seconds : 0.0;
   s.ranks = run.comm->getSize();
   s.mass_error = run.ledger.largest_mass_error;
   s.momentum_error = run.ledger.largest_momentum_error;
@@ -304,6 +170,32 @@ void reportConvergence(Run &run, CycleReport const &report)
   }
 }
 
+/// One cycle. What a kernel's host code throws is a failed run; on several ranks main ends them all, since the others
+/// may wait for the one that threw.
+CycleReport cycle(Run &run)
+{
+  try
+  {
+    return advance(run.scene, run.state, run.times);
+  }
+  catch (std::exception const &error)
+  {
+    std::string const text = "cycle " + std::to_string(run.state.cycle + 1) + ": " + error.what();
+    if (run.comm->getSize() > 1)
+      throw std::runtime_error(text);
+    throw RunFailure(text);
+  }
+}
+
+double partDone(Run const &run)
+{
+  double const by_time = (run.state.time - run.first_time) / (run.deck.run.end_time - run.first_time);
+  double const cycles = static_cast<double>(run.deck.run.max_cycles - run.first_cycle);
+  double const by_cycles =
+      run.deck.run.max_cycles > 0 ? static_cast<double>(run.state.cycle - run.first_cycle) / cycles : 0.0;
+  return std::max(by_time, by_cycles);
+}
+
 ExitStatus loop(Run &run, RunOutput &output)
 {
   CycleReport report;
@@ -313,7 +205,7 @@ ExitStatus loop(Run &run, RunOutput &output)
   while (!finished(run))
   {
     shortenLastStep(run);
-    report = advance(run.scene, run.state, run.times);
+    report = cycle(run);
     book(run.ledger, report, *run.exchange);
     checkCycle(run, report);
     reportConvergence(run, report);
@@ -329,8 +221,7 @@ ExitStatus loop(Run &run, RunOutput &output)
     Kokkos::Timer output_timer;
     output.write(run.scene, run.state, report, run.ledger, wall, finished(run));
     run.output_seconds += output_timer.seconds();
-    double const done = (run.state.time - run.first_time) / (run.deck.run.end_time - run.first_time);
-    run.progress.update(done, run.state.time, report.dt, run.state.cycle, wall,
+    run.progress.update(partDone(run), run.state.time, report.dt, run.state.cycle, wall,
                         cells * static_cast<double>(run.state.cycle - run.first_cycle) / wall);
     if (stop && !finished(run))
     {
@@ -344,29 +235,17 @@ ExitStatus loop(Run &run, RunOutput &output)
 
 } // namespace
 
-ExitStatus simulate(Deck const &deck, RunOptions const &options, CommRCP const &comm)
+ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
 {
   Run run(deck, options, comm);
-  // All that can be wrong with the input is found before the first file is touched.
-  Mesh const mesh = makeLocalMesh(run);
-  run.scene = makeScene(deck, run.whole, mesh, *run.exchange);
-  if (options.restart.empty())
-  {
-    run.state = makeInitialState(deck, run.whole, run.scene);
-    startLedger(run);
-  }
-  else
-    restoreState(run, readCheckpointScalars(options.restart), MPI_COMM_WORLD);
-  ReconstructionReport reconstruction;
-  reconstructState(run.scene, run.state, reconstruction);
+  setUp(run);
   claimDirectory(run);
-
-  RunOutput output(deck, options, comm, options.restart.empty() ? -1 : run.state.cycle, run.state.time);
+  RunOutput output(deck, options, comm, run.start);
   try
   {
     ExitStatus const status = loop(run, output);
     run.progress.finish();
-    writeRunSummary(run, output, status == Completed ? "completed" : "interrupted");
+    writeRunSummary(run, status == Completed ? "completed" : "interrupted");
     return status;
   }
   catch (RunFailure const &failure)
@@ -378,7 +257,7 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, CommRCP const &
     run.progress.finish();
     if (comm->getRank() == 0)
       std::fprintf(stderr, "harmos: %s\n", text.c_str());
-    writeRunSummary(run, output, "failed");
+    writeRunSummary(run, "failed");
     return FailedRun;
   }
 }

@@ -161,6 +161,11 @@ void setRigidVelocities(Scene const &scene, CycleState &s)
   }
 }
 
+PointField pointField(Scene const &scene, CycleState const &s)
+{
+  return {scene.mesh, s.pairs, s.state, s.regions, scene.materials};
+}
+
 void reconstructState(Scene const &scene, CycleState &s, ReconstructionReport &report)
 {
   s.regions = reconstruct(scene.mesh, s.pairs, s.state, scene.reconstruction, report);
@@ -176,6 +181,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     PhaseTimer timer("lagrange", times.lagrange);
     prepareWork(s.pairs, s.dof_nodes, work);
     computeCornerForces(mesh, s.pairs, s.state, scene.materials, scene.lagrange, work);
+    if (scene.kinematics == Kinematics::Lagrangian)
+      addSubzonalForces(mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
+                        scene.lagrange.subzonal_pressure, work);
   }
 
   PredictionSums prediction;
@@ -196,6 +204,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
           constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass, s.state.velocity,
                               work.predicted, work.half, bodies_n, s.bodies, dt, scene.constraint, exchange);
     }
+    // What moves with its mesh outruns no neighbourhood: only the sheared and thinned cells of the reference would pay.
+    if (scene.kinematics == Kinematics::Lagrangian)
+      break;
     PhaseTimer timer("lagrange", times.lagrange);
     travel =
         limitTravel(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, scene.lagrange, dt, work);
@@ -204,6 +215,11 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       break;
   }
   report.dt = dt;
+  if (scene.kinematics != Kinematics::Lagrangian)
+  {
+    PhaseTimer timer("exchange", times.exchange);
+    exchangeDofVelocities(mesh, exchange, s.pairs, work.half);
+  }
   double const gravity_work = gravityWork(scene, s, dt);
 
   TimeStepLimit next;
@@ -212,6 +228,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     report.update = updatePairs(mesh, s.pairs, s.state, scene.materials, scene.lagrange, dt, work, next);
   }
   moveBodies(s.bodies, dt);
+  moveTracers(pointField(scene, s), work.half, dt, scene.kinematics == Kinematics::Lagrangian, exchange, s.tracers);
 
   if (scene.kinematics == Kinematics::Lagrangian)
   {

@@ -2,16 +2,22 @@
 #ifndef HARMOS_TIME_STEP_HPP
 #define HARMOS_TIME_STEP_HPP
 
+#include <Harmos_Points.hpp>
+
 #include <Harmos_Constrain.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Reconstruct.hpp>
 #include <Harmos_Remap.hpp>
 #include <Harmos_Shape.hpp>
+#include <Harmos_SubzonalPressure.hpp>
 
 #include <vector>
 
 namespace Harmos
 {
+
+/// Layers of halo cells that the cycle needs (doc/decisions/0003).
+constexpr int halo_layers = 7;
 
 /// What does not change from cycle to cycle. A host code fills it with its own mesh and exchange.
 struct Scene
@@ -26,7 +32,8 @@ struct Scene
   ReconstructionOptions reconstruction;
   ConstraintOptions constraint;
   RemapOptions remap;
-  double max_dt = 1e300; // [s]
+  View<double *[4]> subzone_fraction; // lagrangian: of the mesh at the start
+  double max_dt = 1e300;              // [s]
   Exchange const *exchange = nullptr;
 };
 
@@ -40,6 +47,7 @@ struct CycleState
   LagrangeWork work;            // scratch, kept from cycle to cycle
   RemapWork remap_work;         // the same
   std::vector<RigidBody> bodies;
+  std::vector<Tracer> tracers; // moved with v^{n+1/2}
   double time = 0.0;   // [s], of the records; velocities are half a step behind
   double dt = 0.0;     // of the next cycle [s]
   TimeStepLimit limit; // what sets it
@@ -73,6 +81,9 @@ struct CycleReport
 
 /// Dof velocities of rigid materials from their bodies (single: of every node that a rigid pair touches).
 void setRigidVelocities(Scene const &scene, CycleState &state);
+
+/// The state as probes and tracers look at it.
+PointField pointField(Scene const &scene, CycleState const &state);
 
 /// Filled regions of the state -> state.regions. Once at the start; every cycle ends with it.
 void reconstructState(Scene const &scene, CycleState &state, ReconstructionReport &report);

@@ -8,10 +8,12 @@
 
 #include <Tpetra_Core.hpp>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace
@@ -139,9 +141,16 @@ int main(int argc, char **argv)
   }
   catch (std::exception const &error)
   {
+    if (comm->getSize() == 1)
+    {
+      std::fprintf(stderr, "harmos: %s\n", error.what());
+      return Harmos::FailedRun;
+    }
+    // The other ranks may wait for this one: all must end. Where all met the same, rank 0 speaks first and ends them.
+    if (comm->getRank() > 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
     std::fprintf(stderr, "harmos: rank %d: %s\n", comm->getRank(), error.what());
-    if (comm->getSize() > 1)
-      MPI_Abort(MPI_COMM_WORLD, Harmos::FailedRun);
+    MPI_Abort(MPI_COMM_WORLD, Harmos::FailedRun);
     return Harmos::FailedRun;
   }
 }

@@ -18,7 +18,7 @@ struct CheckpointScalars
 {
   long long cycle = 0;
   double time = 0.0; // t^n of the next cycle [s]
-  double dt = 0.0;   // of the last cycle, from which the next one's limit of growth follows [s]
+  double dt = 0.0;   // of the next cycle [s]
   Kinematics kinematics = Kinematics::Xfem;
   std::vector<std::string> material_names;
   std::vector<RigidBody> bodies;

@@ -160,6 +160,7 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.lagrange.linear_viscosity = list.get<double>("linear_viscosity");
   deck.lagrange.quadratic_viscosity = list.get<double>("quadratic_viscosity");
   deck.lagrange.hourglass_viscosity = list.get<double>("hourglass_viscosity");
+  deck.lagrange.subzonal_pressure = list.get<double>("subzonal_pressure");
 
   ParameterList const &reconstruction = list.sublist("reconstruction");
   deck.reconstruction.method = reconstruction.get<std::string>("method") == "youngs"
@@ -267,6 +268,9 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   convertInteractions(check, complete.sublist("interactions"), deck);
   convertNumerics(check, complete.sublist("numerics"), deck);
   convertRunAndOutput(complete.sublist("run"), complete.sublist("output"), deck);
+  check.require(deck.output.xdmf || !deck.output.vtu, "output/vtu",
+                "true without output/xdmf: a restart finds the times of the .vtu files in the HDF5 files; expected: "
+                "output/xdmf: true");
   deck.probes = pointsOf(check, complete.sublist("probes"), "probes", deck);
   deck.tracers = pointsOf(check, complete.sublist("tracers"), "tracers", deck);
   deck.constraint.speed_scale = speedScale(deck);

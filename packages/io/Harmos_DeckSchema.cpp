@@ -245,6 +245,8 @@ void addNumerics(ParameterList &list)
       "artificial, in compression");
   add(list, "hourglass_viscosity", lagrange.hourglass_viscosity, number(between(0.0, 0.25)),
       "Flanagan-Belytschko coefficient; 0.25 is critical at Courant 1");
+  add(list, "subzonal_pressure", lagrange.subzonal_pressure, number(between(0.0, 1.0)),
+      "kinematics lagrangian: stiffness of cells against becoming wedges, part of the bulk modulus (Caramana-Shashkov)");
   add(list, "closure", std::string("equal strain"), choice({"equal strain"}),
       "of mixed cells in `single`: all materials of a cell strain alike");
 
@@ -295,8 +297,8 @@ void addCadence(ParameterList &list, int every_cycles, bool at_end, std::string 
 
 void addOutput(ParameterList &list)
 {
-  add(list, "xdmf", true, rulesOf(KeyType::Bool), "fields as HDF5 with XDMF");
-  add(list, "vtu", false, rulesOf(KeyType::Bool), "fields as VTK files");
+  add(list, "xdmf", true, rulesOf(KeyType::Bool), "fields as HDF5 with XDMF; false: no fields");
+  add(list, "vtu", false, rulesOf(KeyType::Bool), "fields as VTK files too");
   addCadence(list.sublist("history"), 1, true, "rows of history, contact, probes and tracers");
   addCadence(list.sublist("fields"), 0, true, "fields");
   addCadence(list.sublist("checkpoint"), 0, false, "a checkpoint");

@@ -13,18 +13,22 @@ void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
   auto const velocity = state.velocity;
   auto const corner_force = work.corner_force;
   Kokkos::parallel_for(
-      "Harmos::lagrange::cornerForces", RangePolicy(0, pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
-        Material const &material = materials(pairs.material(pair));
-        detail::Corners<double> f = {};
-        if (material.rigid_body < 0)
-          f = detail::pairForces(material, options, detail::loadRecord(record, pair),
-                                 detail::cellCorners(mesh, pairs.cell(pair)),
-                                 detail::cornerVelocities(pairs, velocity, pair));
-        for (int k = 0; k < 4; ++k)
-        {
-          corner_force(pair, 2 * k) = f.x[k];
-          corner_force(pair, 2 * k + 1) = f.y[k];
-        }
+      "Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)), KOKKOS_LAMBDA(int block) {
+        detail::forPackedPairs(pairs, block,
+                               [&](int number, int const *pair, unsigned lanes)
+                               {
+                                 Material const material = materials(number);
+                                 int cell[pack_width];
+                                 for (int lane = 0; lane < pack_width; ++lane)
+                                   cell[lane] = pairs.cell(pair[lane]);
+                                 detail::Corners<Pack> f = {};
+                                 if (material.rigid_body < 0)
+                                   f = detail::pairForces(material, options, detail::loadPackedRecord(record, pair),
+                                                          detail::packedCorners(mesh, cell),
+                                                          detail::packedVelocities(pairs, velocity, pair));
+                                 Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
+                                 storeRows(row, lanes, [&](int lane) { return &corner_force(pair[lane], 0); });
+                               });
       });
 }
 

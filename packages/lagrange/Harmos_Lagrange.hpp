@@ -14,6 +14,7 @@ struct LagrangeOptions
   double linear_viscosity = 0.06;
   double quadratic_viscosity = 1.2;
   double hourglass_viscosity = 0.05; // Flanagan-Belytschko, viscous; 0.25 is critical at Courant 1, 0.5 unstable
+  double subzonal_pressure = 0.05;   // lagrangian: merit of addSubzonalForces
   Vector2 gravity = {0.0, 0.0};      // [m/s^2]
   double courant = 0.5;
   double largest_travel = 0.45; // dt |v| over the smallest altitude of the cells around

@@ -45,34 +45,114 @@ TimeStepLimit limitFrom(detail::LargestRate const &largest, CellMaterialPairs co
   return {1.0 / largest.rate, valueAt(pairs.cell, largest.index), valueAt(pairs.material, largest.index)};
 }
 
-/// - sum_I f_I . v_mean_I, the power of the nodes on the pair.
-KOKKOS_INLINE_FUNCTION double cornerPower(View<double *[8]> const &corner_force, int pair,
-                                          detail::Corners<double> const &before, detail::Corners<double> const &half)
+/// - sum_I f_I . v_mean_I, the power of the nodes on the pairs.
+KOKKOS_FORCEINLINE_FUNCTION Pack cornerPower(View<double *[8]> const &corner_force, int const pair[pack_width],
+                                             detail::Corners<Pack> const &before, detail::Corners<Pack> const &half)
 {
-  double sum = 0.0;
+  Pack f[8];
+  loadRows([&](int lane) { return &corner_force(pair[lane], 0); }, f);
+  Pack sum = 0.0;
   for (int k = 0; k < 4; ++k)
-    sum += corner_force(pair, 2 * k) * (before.x[k] + half.x[k]) +
-           corner_force(pair, 2 * k + 1) * (before.y[k] + half.y[k]);
+    sum += f[2 * k] * (before.x[k] + half.x[k]) + f[2 * k + 1] * (before.y[k] + half.y[k]);
   return -0.5 * sum;
 }
 
-/// x - x is not 0 for infinities and NaN.
-KOKKOS_INLINE_FUNCTION bool isFinite(detail::PairRecord<double> const &r)
+/// Lanes where nothing is wrong. x - x is not 0 for infinities and NaN.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION auto isFinite(detail::PairRecord<T> const &r)
 {
-  double const all = r.internal_energy + r.plastic_strain + r.deviator.xx + r.deviator.yy + r.deviator.xy;
-  return r.specific_volume > 0.0 && r.specific_volume - r.specific_volume == 0.0 && all - all == 0.0;
+  T const all = r.internal_energy + r.plastic_strain + r.deviator.xx + r.deviator.yy + r.deviator.xy;
+  return both(r.specific_volume > T(0.0), T((r.specific_volume - r.specific_volume) + (all - all)) == T(0.0));
 }
 
-KOKKOS_INLINE_FUNCTION void storeRecord(View<double *[num_pair_fields]> const &record, int pair,
-                                        detail::PairRecord<double> const &r)
+struct UpdateFunctor
 {
-  record(pair, SpecificVolume) = r.specific_volume;
-  record(pair, InternalEnergy) = r.internal_energy;
-  record(pair, PlasticStrain) = r.plastic_strain;
-  record(pair, DeviatorXX) = r.deviator.xx;
-  record(pair, DeviatorYY) = r.deviator.yy;
-  record(pair, DeviatorXY) = r.deviator.xy;
-}
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  View<Material *> materials;
+  LagrangeOptions options;
+  detail::StepLimits limits;
+  double dt;
+  View<double *[num_pair_fields]> record;
+  View<double *[2]> velocity, half;
+  View<double *> dof_mass;
+  View<double *[8]> corner_force;
+  bool all_owned;
+
+  KOKKOS_INLINE_FUNCTION bool stored(unsigned lanes, int lane) const { return (lanes >> lane & 1u) != 0u; }
+
+  /// The stored lanes whose cells this rank owns.
+  KOKKOS_FORCEINLINE_FUNCTION unsigned owned(unsigned lanes, int const cell[pack_width]) const
+  {
+    if (all_owned)
+      return lanes;
+    for (int lane = 0; lane < pack_width; ++lane)
+      if (mesh.cell_depth(cell[lane]) != 0)
+        lanes &= ~(1u << lane);
+    return lanes;
+  }
+
+  KOKKOS_INLINE_FUNCTION void countTrouble(Material const &material, detail::UpdatedPair<Pack> const &updated,
+                                           int const pair[pack_width], unsigned lanes, UpdateSums &sums) const
+  {
+    auto const finite = isFinite(updated.record);
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      if (!stored(lanes, lane))
+        continue;
+      bool const folded = !(laneOf(updated.corner_area, lane) > 0.0);
+      sums.inverted += folded;
+      sums.not_a_number += !laneOf(finite, lane);
+      sums.out_of_range += !eosInRange(material, laneOf(updated.record.specific_volume, lane));
+      if (folded || !laneOf(finite, lane))
+        sums.trouble(pair[lane]);
+    }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block, UpdateSums &sums) const
+  {
+    detail::forPackedPairs(
+        pairs, block,
+        [&](int number, int const *pair, unsigned lanes)
+        {
+          Material const material = materials(number);
+          int cell[pack_width];
+          for (int lane = 0; lane < pack_width; ++lane)
+            cell[lane] = pairs.cell(pair[lane]);
+          auto const x = detail::packedCorners(mesh, cell);
+          auto const v = detail::packedVelocities(pairs, half, pair);
+          if (material.rigid_body >= 0)
+          {
+            lanes = owned(lanes, cell);
+            for (int lane = 0; lane < pack_width; ++lane)
+              if (stored(lanes, lane))
+                sums.largest.include(detail::rigidPairRate(limits, detail::laneOf(x, lane), detail::laneOf(v, lane)),
+                                     pair[lane]);
+            return;
+          }
+          Pack const power = cornerPower(corner_force, pair, detail::packedVelocities(pairs, velocity, pair), v);
+          auto const updated = detail::updatePair(material, detail::loadPackedRecord(record, pair), x, v, power, dt);
+          auto const &r = updated.record;
+          Pack const acoustic =
+              detail::acousticRate(material, options, updated.geometry, r.specific_volume, r.internal_energy);
+          Pack const fraction = packOf([&](int lane) { return record(pair[lane], VolumeFraction); });
+          Pack const row[num_pair_fields] = {r.mass,           fraction,      r.specific_volume, r.internal_energy,
+                                             r.plastic_strain, r.deviator.xx, r.deviator.yy,     r.deviator.xy};
+          storeRows(row, lanes, [&](int lane) { return &record(pair[lane], 0); });
+          lanes = owned(lanes, cell);
+          Pack const rate =
+              detail::pairRate(pairs, dof_mass, limits, pair, v, updated.geometry, acoustic, r.specific_volume);
+          if (any(rate > Pack(sums.largest.rate)))
+            for (int lane = 0; lane < pack_width; ++lane)
+              if (stored(lanes, lane))
+                sums.largest.include(laneOf(rate, lane), pair[lane]);
+          auto const good =
+              both(both(updated.corner_area > Pack(0.0), isFinite(r)), detail::inRange(material, r.specific_volume));
+          if (any(no(good)))
+            countTrouble(material, updated, pair, lanes, sums);
+        });
+  }
+};
 
 } // namespace
 
@@ -80,50 +160,21 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
                          View<Material *> const &materials, LagrangeOptions const &options, double dt,
                          LagrangeWork const &work, TimeStepLimit &next)
 {
-  auto const record = state.record;
-  auto const velocity = state.velocity;
-  auto const half = work.half;
-  auto const dof_mass = work.dof_mass;
-  auto const corner_force = work.corner_force;
-  detail::StepLimits const limits(options);
+  UpdateFunctor const update{mesh,
+                             pairs,
+                             materials,
+                             options,
+                             detail::StepLimits(options),
+                             dt,
+                             state.record,
+                             state.velocity,
+                             work.half,
+                             work.dof_mass,
+                             work.corner_force,
+                             mesh.num_owned_cells == mesh.num_cells};
   UpdateSums result;
-  Kokkos::parallel_reduce(
-      "Harmos::lagrange::updatePairs", RangePolicy(0, pairs.num_pairs),
-      KOKKOS_LAMBDA(int pair, UpdateSums &sums) {
-        Material const &material = materials(pairs.material(pair));
-        int const cell = pairs.cell(pair);
-        bool const owned = mesh.cell_depth(cell) == 0;
-        auto const x = detail::cellCorners(mesh, cell);
-        auto const v = detail::cornerVelocities(pairs, half, pair);
-        if (material.rigid_body >= 0)
-        {
-          if (owned)
-            sums.largest.include(detail::rigidPairRate(limits, x, v), pair);
-          return;
-        }
-        double const power = cornerPower(corner_force, pair, detail::cornerVelocities(pairs, velocity, pair), v);
-        auto const updated = detail::updatePair(material, detail::loadRecord(record, pair), x, v, power, dt);
-        auto const &r = updated.record;
-        storeRecord(record, pair, r);
-        if (!owned)
-          return;
-        double const acoustic =
-            detail::acousticRate(material, options, updated.geometry, r.specific_volume, r.internal_energy);
-        sums.largest.include(
-            detail::pairRate(pairs, dof_mass, limits, pair, v, updated.geometry, acoustic, r.specific_volume), pair);
-        bool const folded = !(updated.corner_area > 0.0);
-        bool const finite = isFinite(r);
-        bool const in_range = eosInRange(material, r.specific_volume);
-        if (folded || !finite || !in_range)
-        {
-          sums.inverted += folded;
-          sums.not_a_number += !finite;
-          sums.out_of_range += !in_range;
-          if (folded || !finite)
-            sums.trouble(pair);
-        }
-      },
-      detail::JoinReducer<UpdateSums>(result));
+  Kokkos::parallel_reduce("Harmos::lagrange::updatePairs", RangePolicy(0, numPacks(pairs.num_pairs)), update,
+                          detail::JoinReducer<UpdateSums>(result));
   next = limitFrom(result.largest, pairs);
   UpdateReport report;
   report.inverted = result.inverted;

@@ -2,15 +2,15 @@
 #ifndef HARMOS_SELECT_HPP
 #define HARMOS_SELECT_HPP
 
-#include <Harmos_Kokkos.hpp>
+#include <Harmos_Pack.hpp>
 
 namespace Harmos
 {
 
 /// \defgroup ValueType Physics is written once on a value type T: double, or a pack of doubles that share a material.
 ///
-/// A pack type brings its own overloads of these two and of Math::sqrt, Math::min, Math::max; its comparisons return
-/// a mask.
+/// Pack (Harmos_Pack.hpp) has overloads of these two and of Math::sqrt, Math::min, Math::max; its comparisons return a
+/// mask.
 /// \{
 
 /// condition ? a : b, lane by lane.

@@ -4,6 +4,7 @@
 #include <Harmos_CellFillings.hpp>
 #include <Harmos_ShapeRegion.hpp>
 
+#include <cstdio>
 #include <stdexcept>
 
 namespace Harmos
@@ -11,6 +12,14 @@ namespace Harmos
 
 namespace
 {
+
+/// A small number as text: std::to_string would show 0.000000.
+std::string shortText(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 constexpr double overlap_tolerance = 1e-9;
 
@@ -82,7 +91,7 @@ struct BodyPainter
         double const shared = sharedVolume(cell, i, j, present);
         if (shared > allowed)
           throw std::runtime_error("cell " + std::to_string(global_cell) + ": " + label(bodies[i], i) + " and " +
-                                   label(bodies[j], j) + " overlap by " + std::to_string(shared / area(cell)) +
+                                   label(bodies[j], j) + " overlap by " + shortText(shared / area(cell)) +
                                    " of it (more than 1e-9), and the later one is not cut from the earlier");
       }
     return result;

@@ -116,4 +116,28 @@ void exchangeState(Mesh const &mesh, Kinematics kinematics, Exchange const &exch
   state.velocity = velocityFromCorners(mesh, packet, pairs, dof_nodes);
 }
 
+void exchangeDofVelocities(Mesh const &mesh, Exchange const &exchange, CellMaterialPairs const &pairs,
+                           View<double *[2]> const &velocity)
+{
+  if (exchange.size() == 1)
+    return;
+  ScopedRegion const region("Harmos::mesh::exchangeDofVelocities");
+  CellMaterialPairs const p = pairs;
+  View<double **> const item("Harmos::mesh::corner_velocity", p.num_pairs, 8);
+  Kokkos::parallel_for(
+      "Harmos::mesh::packCorners", RangePolicy(0, p.num_pairs), KOKKOS_LAMBDA(int pair) {
+        for (int i = 0; i < 8; ++i)
+          item(pair, i) = velocity(p.dof_node(pair, i / 2), i % 2);
+      });
+  exchange.updateRows(p.offset, item, mesh.halo);
+  // Pairs that share a dof node write the same bits. Owned cells keep what they have.
+  Kokkos::parallel_for(
+      "Harmos::mesh::unpackCorners", RangePolicy(0, p.num_pairs), KOKKOS_LAMBDA(int pair) {
+        if (mesh.cell_depth(p.cell(pair)) == 0)
+          return;
+        for (int i = 0; i < 8; ++i)
+          velocity(p.dof_node(pair, i / 2), i % 2) = item(pair, i);
+      });
+}
+
 } // namespace Harmos

@@ -17,6 +17,13 @@ namespace Harmos
 void exchangeState(Mesh const &mesh, Kinematics kinematics, Exchange const &exchange, int depth,
                    CellMaterialPairs &pairs, NodeMaterialPairs &dof_nodes, PairState &state);
 
+/// Give all dof nodes of the halo, to its rim, the velocities that their owners have; pairs and dof nodes stay.
+///
+/// The corners of pairs travel: every owner knows its cells' nodes completely, where the rim of a halo lacks
+/// neighbours. On one rank it returns at once.
+void exchangeDofVelocities(Mesh const &mesh, Exchange const &exchange, CellMaterialPairs const &pairs,
+                           View<double *[2]> const &velocity);
+
 } // namespace Harmos
 
 #endif

@@ -49,11 +49,97 @@ KOKKOS_INLINE_FUNCTION PairRecord<double> loadRecord(View<double *[num_pair_fiel
   return r;
 }
 
-KOKKOS_INLINE_FUNCTION double largestSpeedSquared(Corners<double> const &v)
+/// \defgroup PackedPairs The same for the pairs of a pack's lanes.
+/// \{
+KOKKOS_FORCEINLINE_FUNCTION Corners<Pack> packedCorners(Mesh const &mesh, int const cell[pack_width])
 {
-  double largest = 0.0;
+  Corners<Pack> c;
   for (int k = 0; k < 4; ++k)
-    largest = Math::max(largest, v.x[k] * v.x[k] + v.y[k] * v.y[k]);
+  {
+    int node[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      node[lane] = mesh.cell_node(cell[lane], k);
+    c.x[k] = packOf([&](int lane) { return mesh.node_position(node[lane], 0); });
+    c.y[k] = packOf([&](int lane) { return mesh.node_position(node[lane], 1); });
+  }
+  return c;
+}
+
+KOKKOS_FORCEINLINE_FUNCTION Corners<Pack>
+packedVelocities(CellMaterialPairs const &pairs, View<double *[2]> const &velocity, int const pair[pack_width])
+{
+  Corners<Pack> c;
+  for (int k = 0; k < 4; ++k)
+  {
+    int dof[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      dof[lane] = pairs.dof_node(pair[lane], k);
+    c.x[k] = packOf([&](int lane) { return velocity(dof[lane], 0); });
+    c.y[k] = packOf([&](int lane) { return velocity(dof[lane], 1); });
+  }
+  return c;
+}
+
+KOKKOS_FORCEINLINE_FUNCTION PairRecord<Pack> loadPackedRecord(View<double *[num_pair_fields]> const &record,
+                                                              int const pair[pack_width])
+{
+  Pack field[num_pair_fields];
+  loadRows([&](int lane) { return &record(pair[lane], 0); }, field);
+  PairRecord<Pack> r;
+  r.mass = field[Mass];
+  r.specific_volume = field[SpecificVolume];
+  r.internal_energy = field[InternalEnergy];
+  r.plastic_strain = field[PlasticStrain];
+  r.deviator = {field[DeviatorXX], field[DeviatorYY], field[DeviatorXY]};
+  return r;
+}
+
+KOKKOS_FORCEINLINE_FUNCTION Corners<double> laneOf(Corners<Pack> const &c, int lane)
+{
+  using Harmos::laneOf;
+  Corners<double> r;
+  for (int k = 0; k < 4; ++k)
+  {
+    r.x[k] = laneOf(c.x[k], lane);
+    r.y[k] = laneOf(c.y[k], lane);
+  }
+  return r;
+}
+
+/// Visit pack number `block` of pairs in parts of one material: visit(material, pair, lanes), bit l of `lanes` set
+/// where lane l is to be stored. The other lanes repeat a pair of the part, so that every lane holds something sound.
+template <class Visitor>
+KOKKOS_FORCEINLINE_FUNCTION void forPackedPairs(CellMaterialPairs const &pairs, int block, Visitor const &visit)
+{
+  int const first = block * pack_width;
+  int const count = Math::min(pack_width, pairs.num_pairs - first);
+  unsigned left = (1u << count) - 1u;
+  while (left != 0u)
+  {
+    int lead = 0;
+    while ((left >> lead & 1u) == 0u)
+      ++lead;
+    int const material = pairs.material(first + lead);
+    int pair[pack_width];
+    unsigned lanes = 0u;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      bool const mine = lane < count && pairs.material(first + lane) == material;
+      pair[lane] = mine ? first + lane : first + lead;
+      lanes |= (mine ? 1u : 0u) << lane;
+    }
+    visit(material, pair, lanes);
+    left &= ~lanes;
+  }
+}
+/// \}
+
+template <class T>
+KOKKOS_INLINE_FUNCTION T largestSpeedSquared(Corners<T> const &v)
+{
+  T largest = T(v.x[0] * v.x[0] + v.y[0] * v.y[0]);
+  for (int k = 1; k < 4; ++k)
+    largest = Math::max(largest, T(v.x[k] * v.x[k] + v.y[k] * v.y[k]));
   return largest;
 }
 
@@ -95,6 +181,40 @@ KOKKOS_INLINE_FUNCTION double pairRate(CellMaterialPairs const &pairs, View<doub
     return rate;
   double const least_mass = limits.light_node * geometry.area / specific_volume;
   return Math::max(rate, Math::sqrt(largestHeavySpeedSquared(pairs, dof_mass, pair, v, least_mass) * scale));
+}
+
+/// The same for a pack of pairs; the rare path lane by lane.
+KOKKOS_FORCEINLINE_FUNCTION Pack pairRate(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
+                                          StepLimits const &limits, int const pair[pack_width], Corners<Pack> const &v,
+                                          StepGeometry<Pack> const &geometry, Pack const &acoustic,
+                                          Pack const &specific_volume)
+{
+  Pack const rate = acoustic * limits.inverse_courant;
+  Pack const scale = geometry.inverse_length_squared * limits.inverse_travel_squared;
+  auto const travels = largestSpeedSquared(v) * scale > rate * rate;
+  if (!any(travels))
+    return rate;
+  using Harmos::laneOf;
+  return packOf(
+      [&](int lane)
+      {
+        if (!laneOf(travels, lane))
+          return laneOf(rate, lane);
+        double const least_mass = limits.light_node * laneOf(geometry.area, lane) / laneOf(specific_volume, lane);
+        double const heavy = largestHeavySpeedSquared(pairs, dof_mass, pair[lane], detail::laneOf(v, lane), least_mass);
+        return Math::max(laneOf(rate, lane), Math::sqrt(heavy * laneOf(scale, lane)));
+      });
+}
+
+/// eosInRange, lane by lane.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION auto inRange(Material const &material, T specific_volume)
+{
+  auto const positive = specific_volume > T(0.0);
+  if (material.eos != EosKind::MieGruneisen)
+    return positive;
+  T const eta = 1.0 - material.density0 * specific_volume;
+  return both(positive, T(1.0 - material.slope * eta) > T(least_hugoniot_denominator));
 }
 
 /// 1 / dt of a rigid pair: its travel through the unmoved cell.

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_PACK_HPP
+#define HARMOS_PACK_HPP
+
+#include <Harmos_Kokkos.hpp>
+
+#include <cstring>
+#include <utility>
+
+namespace Harmos
+{
+
+// Compilers do not vectorise loops over cells whose body gathers through a connectivity. Their own vector type does it
+// without intrinsics: as wide as the machine's registers (a wider one is many times slower than none). Device
+// compilers have no such type; there a pack is a double.
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__) && !defined(__SYCL_DEVICE_ONLY__)
+#define HARMOS_VECTOR_TYPES
+#endif
+
+#ifdef HARMOS_VECTOR_TYPES
+#if defined(__AVX512F__)
+constexpr int pack_width = 8;
+#elif defined(__AVX__)
+constexpr int pack_width = 4;
+#else
+constexpr int pack_width = 2;
+#endif
+
+/// One double for each of pack_width cells, with arithmetic lane by lane.
+///
+/// No operation mixes lanes: a lane's value does not depend on what the others hold, so that results do not depend on
+/// how cells are grouped. Comparisons give a Mask.
+struct Pack
+{
+  typedef double Lanes __attribute__((vector_size(pack_width * sizeof(double))));
+  typedef long long Mask __attribute__((vector_size(pack_width * sizeof(long long))));
+
+  Lanes lanes;
+
+  Pack() = default;
+  KOKKOS_FORCEINLINE_FUNCTION Pack(Lanes const &l) : lanes(l) {}
+  KOKKOS_FORCEINLINE_FUNCTION Pack(double x) : lanes(x - Lanes{}) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION double operator[](int lane) const { return lanes[lane]; }
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack &operator+=(Pack const &b)
+  {
+    lanes += b.lanes;
+    return *this;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Pack &operator-=(Pack const &b)
+  {
+    lanes -= b.lanes;
+    return *this;
+  }
+};
+
+KOKKOS_FORCEINLINE_FUNCTION Pack operator-(Pack const &a)
+{
+  return Pack(-a.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack operator+(Pack const &a, Pack const &b)
+{
+  return Pack(a.lanes + b.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack operator-(Pack const &a, Pack const &b)
+{
+  return Pack(a.lanes - b.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack operator*(Pack const &a, Pack const &b)
+{
+  return Pack(a.lanes * b.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack operator/(Pack const &a, Pack const &b)
+{
+  return Pack(a.lanes / b.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack::Mask operator<(Pack const &a, Pack const &b)
+{
+  return a.lanes < b.lanes;
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack::Mask operator>(Pack const &a, Pack const &b)
+{
+  return a.lanes > b.lanes;
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack::Mask operator<=(Pack const &a, Pack const &b)
+{
+  return a.lanes <= b.lanes;
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack::Mask operator==(Pack const &a, Pack const &b)
+{
+  return a.lanes == b.lanes;
+}
+
+KOKKOS_FORCEINLINE_FUNCTION Pack select(Pack::Mask const &condition, Pack const &a, Pack const &b)
+{
+  return Pack(condition ? a.lanes : b.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION bool any(Pack::Mask const &mask)
+{
+  long long all = 0;
+  for (int lane = 0; lane < pack_width; ++lane)
+    all |= mask[lane];
+  return all != 0;
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack::Mask both(Pack::Mask const &a, Pack::Mask const &b)
+{
+  return a & b;
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack::Mask no(Pack::Mask const &a)
+{
+  return ~a;
+}
+KOKKOS_FORCEINLINE_FUNCTION bool laneOf(Pack::Mask const &mask, int lane)
+{
+  return mask[lane] != 0;
+}
+KOKKOS_FORCEINLINE_FUNCTION double laneOf(Pack const &pack, int lane)
+{
+  return pack[lane];
+}
+
+/// The pack of value(0), value(1), ...
+template <class Value>
+KOKKOS_FORCEINLINE_FUNCTION Pack packOf(Value const &value)
+{
+#if defined(__AVX512F__)
+  return Pack(Pack::Lanes{value(0), value(1), value(2), value(3), value(4), value(5), value(6), value(7)});
+#elif defined(__AVX__)
+  return Pack(Pack::Lanes{value(0), value(1), value(2), value(3)});
+#else
+  return Pack(Pack::Lanes{value(0), value(1)});
+#endif
+}
+
+namespace Detail
+{
+#if defined(__clang__) || __GNUC__ >= 12
+/// Swap the Step-sized blocks off the diagonal of rows a and b, which are Step apart.
+template <int Step, int... Lane>
+KOKKOS_FORCEINLINE_FUNCTION void swapBlocks(Pack &a, Pack &b, std::integer_sequence<int, Lane...>)
+{
+  Pack::Lanes const upper =
+      __builtin_shufflevector(a.lanes, b.lanes, ((Lane & Step) != 0 ? pack_width + Lane - Step : Lane)...);
+  b.lanes = __builtin_shufflevector(a.lanes, b.lanes, ((Lane & Step) != 0 ? pack_width + Lane : Lane + Step)...);
+  a.lanes = upper;
+}
+#else
+template <int Step, int... Lane>
+KOKKOS_FORCEINLINE_FUNCTION void swapBlocks(Pack &a, Pack &b, std::integer_sequence<int, Lane...>)
+{
+  Pack const p = a, q = b;
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    a.lanes[lane] = (lane & Step) != 0 ? q.lanes[lane - Step] : p.lanes[lane];
+    b.lanes[lane] = (lane & Step) != 0 ? q.lanes[lane] : p.lanes[lane + Step];
+  }
+}
+#endif
+
+template <int Step>
+KOKKOS_FORCEINLINE_FUNCTION void transposeFrom(Pack (&p)[pack_width])
+{
+  if constexpr (Step < pack_width)
+  {
+    for (int row = 0; row < pack_width; ++row)
+      if ((row & Step) == 0)
+        swapBlocks<Step>(p[row], p[row + Step], std::make_integer_sequence<int, pack_width>());
+    transposeFrom<2 * Step>(p);
+  }
+}
+} // namespace Detail
+
+/// p[i] lane j <-> p[j] lane i.
+KOKKOS_FORCEINLINE_FUNCTION void transpose(Pack (&p)[pack_width])
+{
+  Detail::transposeFrom<1>(p);
+}
+
+KOKKOS_FORCEINLINE_FUNCTION Pack loadPack(double const *x)
+{
+  Pack p;
+  std::memcpy(&p.lanes, x, sizeof p.lanes);
+  return p;
+}
+KOKKOS_FORCEINLINE_FUNCTION void storePack(double *x, Pack const &p)
+{
+  std::memcpy(x, &p.lanes, sizeof p.lanes);
+}
+
+namespace Math
+{
+KOKKOS_FORCEINLINE_FUNCTION Pack sqrt(Pack const &a)
+{
+  return packOf([&](int lane) { return __builtin_sqrt(a.lanes[lane]); });
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack fabs(Pack const &a)
+{
+  return Pack(a.lanes < 0.0 ? -a.lanes : a.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack min(Pack const &a, Pack const &b)
+{
+  return Pack(b.lanes < a.lanes ? b.lanes : a.lanes);
+}
+KOKKOS_FORCEINLINE_FUNCTION Pack max(Pack const &a, Pack const &b)
+{
+  return Pack(a.lanes < b.lanes ? b.lanes : a.lanes);
+}
+} // namespace Math
+
+#else
+
+constexpr int pack_width = 1;
+using Pack = double;
+
+template <class Value>
+KOKKOS_FORCEINLINE_FUNCTION Pack packOf(Value const &value)
+{
+  return value(0);
+}
+KOKKOS_FORCEINLINE_FUNCTION void transpose(Pack (&)[pack_width]) {}
+KOKKOS_FORCEINLINE_FUNCTION Pack loadPack(double const *x)
+{
+  return *x;
+}
+KOKKOS_FORCEINLINE_FUNCTION void storePack(double *x, Pack const &p)
+{
+  *x = p;
+}
+
+#endif
+
+KOKKOS_FORCEINLINE_FUNCTION bool both(bool a, bool b)
+{
+  return a && b;
+}
+KOKKOS_FORCEINLINE_FUNCTION bool no(bool a)
+{
+  return !a;
+}
+KOKKOS_FORCEINLINE_FUNCTION bool laneOf(bool mask, int)
+{
+  return mask;
+}
+KOKKOS_FORCEINLINE_FUNCTION double laneOf(double pack, int)
+{
+  return pack;
+}
+
+/// Field f of eight-field rows into packs: field[f] lane l = row(l)[f].
+template <class Row>
+KOKKOS_FORCEINLINE_FUNCTION void loadRows(Row const &row, Pack (&field)[8])
+{
+  for (int f = 0; f < 8; f += pack_width)
+  {
+    Pack p[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      p[lane] = loadPack(row(lane) + f);
+    transpose(p);
+    for (int i = 0; i < pack_width; ++i)
+      field[f + i] = p[i];
+  }
+}
+
+/// Its inverse, for the lanes whose bit is set.
+template <class Row>
+KOKKOS_FORCEINLINE_FUNCTION void storeRows(Pack const (&field)[8], unsigned lanes, Row const &row)
+{
+  for (int f = 0; f < 8; f += pack_width)
+  {
+    Pack p[pack_width];
+    for (int i = 0; i < pack_width; ++i)
+      p[i] = field[f + i];
+    transpose(p);
+    for (int lane = 0; lane < pack_width; ++lane)
+      if ((lanes >> lane & 1u) != 0u)
+        storePack(row(lane) + f, p[lane]);
+  }
+}
+
+/// Number of packs that hold `count` lanes.
+KOKKOS_INLINE_FUNCTION constexpr int numPacks(int count)
+{
+  return (count + pack_width - 1) / pack_width;
+}
+
+} // namespace Harmos
+
+#endif

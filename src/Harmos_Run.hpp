@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_RUN_HPP
+#define HARMOS_RUN_HPP
+
+#include "Harmos_Progress.hpp"
+#include "Harmos_RunOutput.hpp"
+#include "Harmos_Setup.hpp"
+
+#include <ctime>
+#include <memory>
+#include <stdexcept>
+
+namespace Harmos
+{
+
+/// What a failed run tells.
+class RunFailure : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A run between its set-up and its summary.
+struct Run
+{
+  Run(Deck const &d, RunOptions const &o, Teuchos::RCP<Teuchos::Comm<int> const> const &c)
+      : deck(d), options(o), comm(c), progress(c->getRank() != 0)
+  {
+  }
+
+  Deck const &deck;
+  RunOptions const &options;
+  Teuchos::RCP<Teuchos::Comm<int> const> comm;
+  Progress progress;
+  DeckMesh whole;
+  std::unique_ptr<Exchange> exchange;
+  Scene scene;
+  CycleState state;
+  Ledger ledger;
+  PhaseTimes times;
+  double output_seconds = 0.0;
+  std::vector<std::string> warnings;
+  Kokkos::Timer timer;
+  std::clock_t cpu_start = std::clock();
+  long long first_cycle = 0;
+  double first_time = 0.0;
+  double first_pair_steps = 0.0;
+  OutputStart start;
+};
+
+/// The words of the lowest rank that has any, on all ranks; empty where none has. Collective.
+std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause);
+
+/// Mesh, scene, state and ledger from the deck or from a checkpoint. \throw DeckError, on all ranks alike, before any
+/// file is touched.
+void setUp(Run &run);
+
+/// Make the folder of the results this run's own. Results of an earlier run are never overwritten unawares.
+/// \throw DeckError on all ranks alike.
+void claimDirectory(Run &run);
+
+} // namespace Harmos
+
+#endif

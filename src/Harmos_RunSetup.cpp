@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_Run.hpp"
+
+#include <Harmos_DeckSchema.hpp>
+#include <Harmos_MeshBuilder.hpp>
+#include <Harmos_Partition.hpp>
+#include <Harmos_TpetraExchange.hpp>
+
+#include <Teuchos_CommHelpers.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace Harmos
+{
+namespace
+{
+
+/// What stands in the way of writing to the run's folder; empty: nothing.
+std::string folderProblem(Run const &run)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path const directory = run.options.directory;
+  bool const has_results =
+      fs::exists(directory / "history.csv", error) || fs::exists(directory / "summary.json", error);
+  if (has_results && !run.options.force && !run.start.append)
+    return "output directory '" + directory.string() +
+           "' holds results; use --force to overwrite them, or another --output";
+  if (run.start.append && fs::exists(directory / "history.csv", error))
+  {
+    std::vector<std::string> names;
+    for (FieldSpec const &field : run.deck.fields)
+      names.push_back(field.name);
+    std::ifstream history(directory / "history.csv");
+    std::string header;
+    if (!std::getline(history, header) || header != historyHeader(names))
+      return "--restart: the columns of '" + (directory / "history.csv").string() + "' are not those of this run";
+  }
+  fs::create_directories(directory, error);
+  if (error)
+    return "cannot make output directory '" + directory.string() + "': " + error.message();
+  if (::access(directory.c_str(), W_OK) != 0)
+    return "cannot write to output directory '" + directory.string() + "': " + std::strerror(errno);
+  return "";
+}
+
+/// What an earlier run left and this one would not replace.
+void removeStale(std::string const &directory)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (char const *stale : {"summary.json", "fields.xdmf", "fields.pvd", "probes.csv", "tracers.csv"})
+    fs::remove(fs::path(directory) / stale, error);
+  std::vector<fs::path> checkpoints;
+  for (auto const &entry : fs::directory_iterator(directory, error))
+    if (entry.path().extension() == ".h5" && entry.path().stem().string().rfind("checkpoint_", 0) == 0)
+      checkpoints.push_back(entry.path());
+  for (fs::path const &file : checkpoints)
+    fs::remove(file, error);
+}
+
+/// Contact looks for its partner as far as the square root of a cell's area: the halo holds what lies two cells away.
+void checkReach(Deck const &deck)
+{
+  double longest[2] = {0.0, 0.0}, shortest[2] = {1e300, 1e300};
+  AxisSpec const *const axis[2] = {&deck.x, &deck.y};
+  for (int d = 0; d < 2; ++d)
+    for (int i = 0; i < axis[d]->cells; ++i)
+    {
+      double const size = axis[d]->position(i + 1) - axis[d]->position(i);
+      longest[d] = std::max(longest[d], size);
+      shortest[d] = std::min(shortest[d], size);
+    }
+  double const aspect = std::max(longest[0] / shortest[1], longest[1] / shortest[0]);
+  if (aspect > 4.0)
+    throw DeckError("mesh: cells of aspect ratio up to " + std::to_string(aspect) +
+                    " run on one rank only; expected: at most 4");
+}
+
+Mesh makeLocalMesh(Run &run)
+{
+  run.whole = makeMesh(run.deck);
+  int const ranks = run.comm->getSize();
+  if (ranks == 1)
+  {
+    run.exchange = std::make_unique<Exchange>();
+    return buildMesh(run.whole.mesh);
+  }
+  if (run.deck.kinematics == Kinematics::Lagrangian)
+    throw DeckError("kinematics: lagrangian runs on one rank only (" + std::to_string(ranks) +
+                    " given): its blocks share no nodes that a halo could follow");
+  if (static_cast<std::size_t>(ranks) > run.whole.mesh.cell.size())
+    throw DeckError("mesh: " + std::to_string(run.whole.mesh.cell.size()) + " cells cannot be shared by " +
+                    std::to_string(ranks) + " ranks");
+  checkReach(run.deck);
+  Mesh const mesh =
+      buildLocalMesh(run.whole.mesh, partitionCells(run.whole.mesh, ranks), run.comm->getRank(), halo_layers);
+  run.exchange = std::make_unique<TpetraExchange>(run.comm, mesh);
+  return mesh;
+}
+
+std::vector<double> const &arrayOf(CheckpointScalars const &scalars, std::string const &name)
+{
+  auto const found = scalars.arrays.find(name);
+  if (found == scalars.arrays.end())
+    throw std::runtime_error("it has no array '" + name + "'");
+  return found->second;
+}
+
+void restoreTracers(Run &run, std::vector<double> const &values)
+{
+  std::size_t const width = 6;
+  if (values.size() != width * run.deck.tracers.size())
+    throw std::runtime_error("it holds " + std::to_string(values.size() / width) + " tracers, the deck " +
+                             std::to_string(run.deck.tracers.size()));
+  for (std::size_t i = 0; i < values.size(); i += width)
+  {
+    double const *v = values.data() + i;
+    run.state.tracers.push_back({{v[0], v[1]}, {v[2], v[3]}, static_cast<long long>(v[4]), static_cast<int>(v[5])});
+  }
+}
+
+/// The state from a checkpoint: the same bits that the interrupted run had.
+void restoreState(Run &run)
+{
+  CheckpointScalars const scalars = readCheckpointScalars(run.options.restart);
+  if (scalars.material_names != materialNames(run.deck))
+    throw std::runtime_error("its materials are not those of the deck");
+  if (scalars.kinematics != run.deck.kinematics)
+    throw std::runtime_error("its kinematics is not that of the deck");
+  CheckpointState read = readCheckpoint(MPI_COMM_WORLD, run.options.restart, run.scene.mesh);
+  CycleState &s = run.state;
+  s.pairs = read.pairs;
+  s.state.record = read.record;
+  s.state.centroid = read.centroid;
+  s.dof_nodes = buildDofNodes(run.scene.mesh, run.deck.kinematics, read.record, s.pairs);
+  s.state.velocity = dofVelocities(s.pairs, s.dof_nodes, read.corner_velocity);
+  s.bodies = scalars.bodies;
+  s.time = scalars.time;
+  s.cycle = scalars.cycle;
+  prepareWork(s.pairs, s.dof_nodes, s.work);
+  computeNodeAltitudes(run.scene.mesh, s.work);
+  s.dt = scalars.dt;
+  run.ledger = Ledger::fromValues(arrayOf(scalars, "ledger"));
+  restoreTracers(run, arrayOf(scalars, "tracers"));
+  std::vector<double> const &ended = arrayOf(scalars, "ended");
+  run.start = {true, false, s.cycle, s.time, ended.at(0) != 0.0, ended.at(1) != 0.0};
+  run.first_cycle = s.cycle;
+  run.first_time = s.time;
+  run.first_pair_steps = run.ledger.pair_steps;
+}
+
+void startLedger(Run &run)
+{
+  Totals const totals = computeTotals(run.scene, run.state, static_cast<int>(run.deck.fields.size()), false);
+  Ledger &l = run.ledger;
+  l.energy0 = totals.kinetic_energy + totals.internal_energy;
+  l.mass0 = totals.mass;
+  l.momentum0_x = totals.momentum_x;
+  l.momentum0_y = totals.momentum_y;
+  l.noteErrors(0.0, 0.0, 0.0, l.energy0, totals.speed_momentum);
+  if (!(totals.mass > 0.0) && run.state.bodies.empty())
+    throw DeckError("bodies: no body has any mass inside of the mesh");
+}
+
+void placeTracers(Run &run)
+{
+  std::vector<Vector2> points;
+  for (PointSpec const &point : run.deck.tracers)
+    points.push_back(point.position);
+  std::vector<long long> const cell = locatePoints(run.scene.mesh, points, *run.exchange);
+  std::vector<PointSample> const sample =
+      samplePoints(pointField(run.scene, run.state), points, cell, std::vector<int>(points.size(), -1), *run.exchange);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (sample[i].material < 0)
+      throw DeckError("tracers/" + run.deck.tracers[i].name +
+                      "/position: void is there; a tracer moves with a material");
+    run.state.tracers.push_back({points[i], sample[i].velocity, cell[i], sample[i].material});
+  }
+}
+
+} // namespace
+
+std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause)
+{
+  int mine = cause.empty() ? comm.getSize() : comm.getRank(), first = mine;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, 1, &mine, &first);
+  if (first == comm.getSize())
+    return "";
+  int length = static_cast<int>(cause.size());
+  Teuchos::broadcast(comm, first, 1, &length);
+  cause.resize(length);
+  Teuchos::broadcast(comm, first, length, &cause[0]);
+  return cause;
+}
+
+// What one rank alone meets (bodies that overlap in its cells) all ranks throw.
+void setUp(Run &run)
+{
+  bool const fresh = run.options.restart.empty();
+  std::string cause;
+  try
+  {
+    Mesh const mesh = makeLocalMesh(run);
+    run.scene = makeScene(run.deck, run.whole, mesh, *run.exchange);
+    if (fresh)
+      run.state = makeInitialState(run.deck, run.whole, run.scene);
+  }
+  catch (std::exception const &error)
+  {
+    cause = error.what();
+  }
+  cause = firstCause(*run.comm, cause);
+  if (!cause.empty())
+    throw DeckError(cause);
+  if (!fresh)
+  {
+    try
+    {
+      restoreState(run);
+    }
+    catch (std::exception const &error)
+    {
+      throw DeckError("--restart " + run.options.restart + ": " + error.what());
+    }
+  }
+  else
+  {
+    setFirstTimeStep(run.deck, run.scene, run.state);
+    startLedger(run);
+  }
+  ReconstructionReport reconstruction;
+  reconstructState(run.scene, run.state, reconstruction);
+  if (fresh)
+    placeTracers(run);
+}
+
+void claimDirectory(Run &run)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  run.start.append = run.start.restarted &&
+                     fs::equivalent(fs::absolute(run.options.restart).parent_path(), run.options.directory, error);
+  bool const first = run.comm->getRank() == 0;
+  std::string const problem = firstCause(*run.comm, first ? folderProblem(run) : "");
+  if (!problem.empty())
+    throw DeckError(problem);
+  if (first && !run.start.restarted)
+    removeStale(run.options.directory);
+}
+
+} // namespace Harmos

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# cmake -DBUILD=... -DSOURCE=... -DSCRATCH=... (and the compilers) -P install.cmake
+function(step title)
+  message(STATUS "${title}")
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${title}: failed (${status})")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+step("install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+step("harmos --version" ${SCRATCH}/prefix/bin/harmos --version)
+step("configure the host application" ${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/build -G ${GENERATOR}
+  -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DCMAKE_BUILD_TYPE=${BUILD_TYPE}
+  -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
+  -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_CXX_FLAGS_RELEASE=${FLAGS_RELEASE})
+step("build it" ${CMAKE_COMMAND} --build ${SCRATCH}/build)
+foreach(ranks 1 2)
+  step("run it on ${ranks}" ${MPIEXEC} ${ranks} ${SCRATCH}/build/host_application)
+endforeach()

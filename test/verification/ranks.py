@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One, two and four ranks give the same answer: the state bit for bit, the sums of the history to round-off."""
+import pathlib
+
+from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
+from harness import check, clean, harmos, run
+from sliding_block import SQUEEZE, settings
+
+HERE = pathlib.Path(__file__).resolve().parent
+CYCLES = 100
+COMMON = {
+    "run/max_cycles": CYCLES,
+    "output/history/every_cycles": 1,
+    "output/fields/every_time": 0.0,
+    "output/fields/at_end": "false",
+    "output/checkpoint/at_end": "true",
+}
+
+
+def compare(deck, more=None, ranks=(2, 4)):
+    one = harmos(deck, {**(more or {}), **COMMON})
+    assert one.last("cycle") == CYCLES
+    for n in ranks:
+        several = harmos(deck, {**(more or {}), **COMMON}, ranks=n)
+        assert several.summary["ranks"] == n
+        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
+        worst, column = same_history(one, several)
+        check(f"{n} ranks: history, worst in {column}", worst, ROUND_OFF)
+        clean(several)
+    return one
+
+
+def test_translation_patch():
+    clean(compare("translation_patch/deck.yaml"))
+
+
+def test_two_bars():
+    clean(compare("two_bars/deck.yaml"))
+
+
+def test_squeezed_sliding_block():
+    clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, SQUEEZE)))
+
+
+def test_single_velocity_block():
+    clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, kinematics="single"), ranks=(4,)))
+
+
+def test_disc_through_plate():
+    # Two ranks would cut the mesh beside the plate, not across it.
+    clean(compare("disc_through_plate/deck.yaml", ranks=(3, 4)))
+
+
+def test_free_rigid_ball_in_contact():
+    r = compare(HERE / "rigid_ball.yaml", ranks=(2, 4))
+    assert max(r["multipliers"]) > 0, "the ball must touch the plate"
+    clean(r)
+
+
+def test_cells_twice_as_long_as_wide_with_tracers_and_probes():
+    points = {"tracers/t": "{position: [0.66, 0.7]}", "probes/p": "{position: [1.0, 0.5]}", "mesh/y/cells": 40}
+    runs = [harmos(HERE / "rigid_ball.yaml", {**points, **COMMON}, ranks=n) for n in (1, 4)]
+    same_state(*(newest_checkpoint(r.directory) for r in runs))
+    for name in ("tracers.csv", "probes.csv"):
+        texts = [(r.directory / name).read_text() for r in runs]
+        assert texts[0] == texts[1], name
+        assert len(texts[0].splitlines()) == CYCLES + 2
+    clean(*runs)
+
+
+def test_lagrangian_and_narrow_cells_are_refused_on_several_ranks():
+    for deck, more, words in (
+        ("two_blocks.yaml", {}, "lagrangian runs on one rank only"),
+        ("rigid_ball.yaml", {"mesh/y/cells": 101}, "aspect ratio"),
+    ):
+        r = harmos(HERE / deck, {**more, **COMMON}, ranks=2, expect=2)
+        lines = [line for line in r.text.splitlines() if line.startswith("harmos:")]
+        assert len(lines) == 1 and words in lines[0], r.text
+        assert not r.history
+        clean(r)
+
+
+if __name__ == "__main__":
+    run(globals())

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run that stops and goes on from a checkpoint leaves the tables of the run that did not stop."""
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+import harness
+from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
+from harness import Run, check, clean, harmos, run
+
+HERE = pathlib.Path(__file__).resolve().parent
+BALL, BLOCKS = HERE / "rigid_ball.yaml", HERE / "two_blocks.yaml"
+DISC, BLOCK = "disc_through_plate/deck.yaml", "sliding_block/deck.yaml"
+QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": "false"}
+TABLES = ("history.csv", "contact.csv", "probes.csv", "tracers.csv")
+
+
+def stop(settings, cycles):
+    return {**QUIET, **settings, "run/max_cycles": cycles}
+
+
+def same_tables(a, b):
+    for name in TABLES:
+        if (a / name).exists():
+            left, right = (a / name).read_bytes(), (b / name).read_bytes()
+            assert left == right, f"{name} differs"
+            print(f"  {name}: {len(left)} bytes alike")
+
+
+def goes_on(deck, settings=None, cycles=(33, 60), every=11):
+    """Stop at cycles[0] and go on to cycles[1] from the last checkpoint and from the one before."""
+    settings = settings or {}
+    whole = harmos(deck, stop(settings, cycles[1]))
+    part = harmos(deck, {**stop(settings, cycles[0]), "output/checkpoint/every_cycles": every})
+    checkpoints = sorted(p.name for p in part.directory.glob("checkpoint_*.h5"))
+    assert len(checkpoints) == 2, checkpoints
+    for name in checkpoints:
+        copy = pathlib.Path(str(part.directory) + "-copy")
+        shutil.copytree(part.directory, copy)
+        r = harmos(deck, stop(settings, cycles[1]), directory=copy, extra=["--restart", str(copy / name)])
+        same_tables(whole.directory, copy)
+        for key in ("cycles", "pair_steps", "cell_steps", "mass_error", "momentum_error", "energy_error"):
+            assert r.summary[key] == whole.summary[key], key
+        clean(r)
+    return whole, part
+
+
+def test_xfem_with_tracers_and_probes():
+    points = {"tracers/t": "{position: [-0.3, -0.1]}", "probes/p": "{position: [0.0, 0.0]}"}
+    clean(*goes_on(BLOCK, points))
+
+
+def test_single():
+    clean(*goes_on(BLOCK, {"kinematics": "single"}))
+
+
+def test_free_rigid_body():
+    clean(*goes_on(BALL, cycles=(55, 80)))
+
+
+def test_lagrangian():
+    clean(*goes_on(BLOCKS))
+
+
+def test_disc_through_plate_with_a_row_every_seventh_cycle():
+    # The row at cycle 33 was written because the run ended there: the run that goes on takes it back.
+    clean(*goes_on(DISC, {"output/history/every_cycles": 7}))
+
+
+def test_other_number_of_ranks():
+    whole, part = goes_on(BALL, cycles=(33, 60))
+    copy = pathlib.Path(str(part.directory) + "-ranks")
+    shutil.copytree(part.directory, copy)
+    settings = {**stop({}, 60), "output/checkpoint/at_end": "true"}
+    r = harmos(BALL, settings, ranks=3, directory=copy, extra=["--restart", str(newest_checkpoint(copy))])
+    worst, column = same_history(whole, r)
+    check(f"history, worst in {column}", worst, ROUND_OFF)
+    full = harmos(BALL, settings)
+    same_state(newest_checkpoint(full.directory), newest_checkpoint(copy))
+    clean(whole, part, r, full)
+
+
+def start(deck, directory, settings):
+    command = [harness.HARMOS, "run", str(harness.EXAMPLE / deck), "--output", str(directory)]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={value}"]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def rows(directory):
+    history = directory / "history.csv"
+    return len(history.read_text().splitlines()) if history.exists() else 0
+
+
+def interrupt(with_signal):
+    """Interrupt a run once it has some rows; then let it end: the same tables as without."""
+    cycles = 150
+    whole = harmos(DISC, stop({}, cycles))
+    directory = pathlib.Path(str(whole.directory) + "-interrupted")
+    process = start(DISC, directory, stop({}, cycles))
+    while rows(directory) < 4 and process.poll() is None:
+        time.sleep(0.01)
+    process.send_signal(with_signal)
+    text = process.communicate()[0]
+    assert process.returncode == 4, f"exit status {process.returncode}\n{text}"
+    first = Run(directory, 4, text)
+    assert first.summary["status"] == "interrupted" and 0 < first.summary["cycles"] < cycles
+    checkpoint = newest_checkpoint(directory)
+    assert str(checkpoint) in text, text
+    r = harmos(DISC, stop({}, cycles), directory=directory, extra=["--restart", str(checkpoint)])
+    assert r.summary["status"] == "completed"
+    same_tables(whole.directory, directory)
+    clean(whole, r)
+
+
+def test_sigterm_writes_a_checkpoint_and_the_run_goes_on():
+    interrupt(signal.SIGTERM)
+
+
+def test_sigint_writes_a_checkpoint_and_the_run_goes_on():
+    interrupt(signal.SIGINT)
+
+
+def test_checkpoints_by_the_wall_clock():
+    r = harmos(BALL, {**stop({}, 60), "output/checkpoint/every_wall_seconds": 1e-3})
+    assert len(list(r.directory.glob("checkpoint_*.h5"))) == 2
+    clean(r)
+
+
+def contents(directory):
+    return {p.name: p.read_bytes() for p in directory.iterdir()}
+
+
+def test_bad_restart_files_change_nothing():
+    part = harmos(BALL, {**stop({}, 20), "output/checkpoint/at_end": "true"})
+    good = newest_checkpoint(part.directory)
+    data = good.read_bytes()
+    cut, damaged, text = (part.directory / name for name in ("cut.h5", "damaged.h5", "text.h5"))
+    cut.write_bytes(data[: len(data) // 2])
+    middle = len(data) // 2
+    damaged.write_bytes(data[:middle] + bytes(b ^ 0x55 for b in data[middle : middle + 64]) + data[middle + 64 :])
+    text.write_text("no HDF5 file\n")
+    other = harmos(BLOCK, {**stop({}, 2), "output/checkpoint/at_end": "true"})
+    cases = [cut, damaged, text, part.directory / "missing.h5", newest_checkpoint(other.directory)]
+    before = contents(part.directory)
+    for file in cases:
+        r = harmos(BALL, stop({}, 40), directory=part.directory, extra=["--restart", str(file)], expect=2)
+        assert len(r.text.splitlines()) == 1 and str(file) in r.text, r.text
+        print(" ", r.text.strip())
+        assert contents(part.directory) == before
+    r = harmos(BALL, {**stop({}, 40), "mesh/x/cells": 41}, directory=part.directory, extra=["--restart", str(good)], expect=2)
+    assert "another mesh" in r.text and contents(part.directory) == before, r.text
+    clean(part, other)
+
+
+if __name__ == "__main__":
+    run(globals())
