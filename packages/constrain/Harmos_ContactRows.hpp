@@ -8,7 +8,7 @@
 namespace Harmos
 {
 
-/// Layers of halo cells whose rows this rank holds: those that meet a dof node of an own row, where rays reach two cells.
+/// Layers of halo cells whose rows this rank holds: those that meet a dof node of an own row, rays reaching two cells.
 constexpr int row_halo = 5;
 
 /// Contact rows of this rank, by key: its own (slave cell of depth 0), and after exchangeContactRows those of its halo.

@@ -123,6 +123,19 @@ KOKKOS_INLINE_FUNCTION EdgePieces exposedPieces(double length, EdgeCovers const 
   return pieces;
 }
 
+/// Both halves of a free face of a body-fitted mesh. With one point a face, corners that sink and rise by turns satisfy
+/// every row: nothing but the stiffness of long cells would hold them. Two points leave no such motion.
+KOKKOS_INLINE_FUNCTION EdgePieces halves(double length)
+{
+  EdgePieces pieces;
+  pieces.count = 2;
+  pieces.total = length;
+  pieces.end[0] = pieces.begin[1] = 0.5 * length;
+  pieces.begin[0] = 0.0;
+  pieces.end[1] = length;
+  return pieces;
+}
+
 /// Counts, or writes, the segments of single cells.
 struct SegmentFinder
 {
@@ -192,7 +205,8 @@ struct SegmentFinder
       if (across >= 0)
         coverBy(across / 4, -1, edge, tolerance, covers);
     }
-    EdgePieces const pieces = exposedPieces(edge.length, covers, material, tolerance);
+    bool const free = face >= 0 && mesh.face_neighbour(cell, face) < 0 && mesh.face_boundary(cell, face) < 0;
+    EdgePieces const pieces = free ? halves(edge.length) : exposedPieces(edge.length, covers, material, tolerance);
     if (first < 0)
       return pieces.count;
     double const exposed = face < 0 ? 1.0 : pieces.total / norm(cell_shape[(face + 1) % 4] - cell_shape[face]);

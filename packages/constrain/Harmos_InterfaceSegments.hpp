@@ -40,7 +40,7 @@ struct InterfaceSegments
 ///
 /// An edge is split where the material beyond it changes (void counts). Contact walls are segments of material -1; a
 /// region's edge on one is exposed; other domain boundaries carry nothing; a face with neither neighbour nor boundary
-/// is a free surface. Cells of depth mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
+/// is a free surface (of a body-fitted block), in two segments. Cells of depth mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
 ///
 /// Cost: one comparison of a few integers a cell, the rest follows the interfaces.
 /// Throws std::runtime_error when a cell has more than max_cell_segments.

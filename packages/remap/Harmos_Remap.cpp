@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Remap.hpp>
 
+#include <detail/Harmos_Kept.hpp>
 #include <detail/Harmos_Rebuild.hpp>
-#include <detail/Harmos_SweptFluxes.hpp>
 
 #include <stdexcept>
 
@@ -14,18 +14,30 @@ namespace
 
 using namespace RemapDetail;
 
-template <class T>
-void provide(View<T> &array, char const *label, int extent)
+/// The classes of the cells: as in the last cycle where nothing that they depend on has changed.
+Classes const &keepClasses(Input const &in, Kept &kept)
 {
-  if (static_cast<int>(array.extent(0)) != extent)
-    array = scratch<T>(label, extent);
+  bool const same = in.rigid.offset.extent(0) == 0 && kept.face_neighbour.data() == in.mesh.face_neighbour.data() &&
+                    kept.pairs.offset.data() == in.pairs.offset.data() &&
+                    kept.pairs.material.data() == in.pairs.material.data() &&
+                    kept.pairs.cell_kind.data() == in.pairs.cell_kind.data() &&
+                    kept.conditions.boundary.data() == in.conditions.boundary.data() &&
+                    kept.materials.data() == in.materials.data() && kept.classes.flags.extent(0) > 0;
+  if (!same)
+  {
+    kept.classes = classify(in);
+    kept.pairs = in.pairs;
+    kept.conditions = in.conditions;
+    kept.materials = in.materials;
+  }
+  return kept.classes;
 }
 
 /// Stage 1: the pure regions.
-StageState sweepPureCells(Input const &in, Classes const &classes, RemapWork &work)
+StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, SweptSums &sums)
 {
   StageState stage;
-  stage.record = scratch<double *[num_pair_fields]>("record", in.pairs.num_pairs);
+  stage.record = recycle(kept.records, "record", in.pairs.num_pairs);
   stage.velocity = in.half;
   View<double *> before;
   if (in.options.return_kinetic_defect)
@@ -43,16 +55,34 @@ StageState sweepPureCells(Input const &in, Classes const &classes, RemapWork &wo
       Kokkos::deep_copy(stage.kinetic, before);
     return stage;
   }
-  provide(work.geometry, "geometry", in.mesh.num_cells);
-  provide(work.moved_record, "movedRecord", in.mesh.num_cells);
-  provide(work.flux, "flux", in.mesh.num_cells);
-  provide(work.corner_increment, "cornerIncrement", in.mesh.num_cells);
-  stage.velocity = scratch<double *[2]>("velocity", in.dof_nodes.num_dof_nodes);
-  sweptGeometry(in, classes, before, work);
-  sweptFluxes(in, classes, work);
-  sweptGather(in, classes, before, work, stage.record, stage.kinetic);
-  sweptMomentum(in, classes, work, stage.record, stage.velocity);
+  if (kept.window.cell.extent(0) == 0)
+  {
+    kept.chunks = sweptChunks(in.mesh);
+    kept.window = sweptWindow(kept.chunks);
+  }
+  stage.velocity = recycle(kept.velocities, "velocity", in.dof_nodes.num_dof_nodes);
+  sums = sweep({in, classes, kept.window, before, stage.record, stage.kinetic, stage.velocity}, kept.chunks);
   return stage;
+}
+
+/// Kinetic energy at `half` of what stage 1 has not summed.
+double otherKineticEnergy(Input const &in, Classes const &classes)
+{
+  if (classes.num_swept == 0)
+    return kineticEnergy(in, in.pairs, in.state.record, in.half);
+  double sum = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::remap::otherKineticEnergy", RangePolicy(0, classes.num_interface),
+      KOKKOS_LAMBDA(int i, double &s) {
+        int const cell = classes.interface_cell(i);
+        if (classes.pure_material(cell) >= 0 || in.mesh.cell_depth(cell) != 0)
+          return;
+        for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
+          if (!in.isRigid(in.pairs.material(pair)))
+            s += in.state.record(pair, Mass) * cornerKineticEnergy(in.pairs, in.half, pair);
+      },
+      sum);
+  return sum;
 }
 
 /// Stage 2: the interface cells.
@@ -119,9 +149,18 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     throw std::runtime_error("remap: lagrangian kinematics has no remap");
   ScopedRegion const region("Harmos::remap");
   Input const in{mesh, pairs, dof_nodes, state, regions, conditions, materials, half, dt, rigid, options};
-  double const kinetic_before = kineticEnergy(in, pairs, state.record, half);
-  Classes const classes = classify(in);
-  StageState const stage = sweepPureCells(in, classes, work);
+  if (!work.kept)
+    work.kept = std::make_shared<Kept>();
+  Kept &kept = *work.kept;
+  Classes const classes = keepClasses(in, kept);
+  if (kept.face_neighbour.data() != mesh.face_neighbour.data())
+  {
+    kept.face_neighbour = mesh.face_neighbour;
+    kept.window = {};
+  }
+  SweptSums sums;
+  StageState const stage = sweepPureCells(in, classes, kept, sums);
+  sums.kinetic_before += otherKineticEnergy(in, classes);
 
   Acceptors acceptors;
   double out_kinetic = 0.0;
@@ -132,12 +171,15 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     addBookings(classes, bookings, report, out_kinetic);
   }
   Rebuilt rebuilt = rebuild(in, kinematics, classes, stage, acceptors);
-  rebuilt.result.state.velocity = scratch<double *[2]>("velocity", rebuilt.result.dof_nodes.num_dof_nodes);
-  report.wall_impulse += nodalVelocities(in, classes, stage, acceptors, rebuilt);
+  rebuilt.result.state.velocity = stage.velocity;
+  bool const in_place = classes.num_swept > 0 && rebuilt.result.pairs.offset.data() == pairs.offset.data();
+  if (!in_place)
+    rebuilt.result.state.velocity = recycle(kept.velocities, "velocity", rebuilt.result.dof_nodes.num_dof_nodes);
+  if (!in_place || classes.num_interface > 0)
+    nodalVelocities(in, classes, stage, acceptors, rebuilt, in_place, sums);
+  report.wall_impulse += sums.wall_impulse;
   double const returned = options.return_kinetic_defect ? returnKineticDefect(in, rebuilt) : 0.0;
-  RemapResult const &out = rebuilt.result;
-  report.kinetic_loss +=
-      kinetic_before - kineticEnergy(in, out.pairs, out.state.record, out.state.velocity) - out_kinetic - returned;
+  report.kinetic_loss += sums.kinetic_before - sums.kinetic_after - out_kinetic - returned;
   return rebuilt.result;
 }
 

@@ -7,6 +7,8 @@
 #include <Harmos_FilledRegions.hpp>
 #include <Harmos_Material.hpp>
 
+#include <memory>
+
 namespace Harmos
 {
 
@@ -51,13 +53,16 @@ struct RigidRows
   View<double *[2]> centroid;     // of the body's part of the cell [length]
 };
 
-/// Work arrays that a caller may keep from cycle to cycle (fresh pages cost as much as a kernel).
+namespace RemapDetail
+{
+struct Kept;
+}
+
+/// What a caller may keep from cycle to cycle: work arrays, two of every array that a RemapResult holds, the order of
+/// the kernels for a mesh, and the classes of cells for as long as no cell changes. Copies share it.
 struct RemapWork
 {
-  View<double *[16]> geometry;        // num_cells: moved volume, centroid, four swept faces
-  View<double *[8]> moved_record;     // num_cells: density, kinetic energy and the other fields of a record
-  View<double *[4][8]> flux;          // num_cells: outgoing fluxes of the faces
-  View<double *[8]> corner_increment; // num_cells: momentum gained by the corners
+  std::shared_ptr<RemapDetail::Kept> kept;
 };
 
 /// Remap the moved pairs back to the mesh in two stages (doc/decisions/0002): swept faces where all is pure and of one

@@ -160,5 +160,5 @@ TEST(RayCast, overlapOfSeparateBlocks_isFoundAsGapZero)
       EXPECT_EQ(hit[i].gap, 0.0);
       ++found;
     }
-  EXPECT_EQ(found, 4);
+  EXPECT_EQ(found, 8); // two a free face
 }

@@ -42,6 +42,11 @@ class HarmosPlot(unittest.TestCase):
         for field in ("pressure", "velocity", "deviator_xy"):  # a scalar, a length, a component
             self.assertGreater(len(numpy.unique(self.picture(RUN, "--field", field).reshape(-1, 3), axis=0)), 20, field)
 
+    def test_greyMaterial_isGreyAndLeavesTheColourRangeAlone(self):
+        pixels = self.picture(RUN, "--field", "pressure", "--grey", "copper", "--outline", "0", "--no-interface")
+        grey = (abs(pixels.reshape(-1, 3).astype(int) - [0xB9, 0xBC, 0xC0]).sum(axis=1) < 6).sum()
+        self.assertGreater(grey, 0.1 * pixels[..., 0].size)
+
     def test_comparison_isWiderOrTallerThanOnePanel(self):
         one, two = self.picture(RUN), self.picture(RUN, "--compare", RUN, "--labels", "xfem", "single")
         self.assertGreater(two.size, 1.5 * one.size)
@@ -57,8 +62,11 @@ class HarmosPlot(unittest.TestCase):
             self.assertEqual(film.format, "GIF")
 
     def test_mistakes_areOneClearLine(self):
-        for arguments, words in (([OUT + "/none"], "no such folder"), ([RUN, "--history", "speed"], "no column 'speed'"),
-                                 ([RUN, "--frame", "7"], "there are 3 frames"), ([RUN, "--film", "a.avi"], ".gif or .mp4")):
+        for arguments, words in (([OUT + "/none"], "no such folder"),
+                                 ([RUN, "--history", "speed"], "no column 'speed'"),
+                                 ([RUN, "--frame", "7"], "there are 3 frames"),
+                                 ([RUN, "--film", "a.avi"], ".gif or .mp4"),
+                                 ([RUN, "--grey", "lead"], "no such material; there are")):
             result = plot(*arguments)
             self.assertEqual(result.returncode, 2, words)
             self.assertIn(words, result.stderr)

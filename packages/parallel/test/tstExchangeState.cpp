@@ -144,6 +144,25 @@ TEST_P(ExchangeState, spoiltHalo_isTheTruthAgainBitForBit)
   expectSame(f.state.velocity, truth.state.velocity, "velocity");
 }
 
+/// What the rim of a halo computes lacks neighbours; owners know better.
+TEST_P(ExchangeState, spoiltHaloVelocities_areTheOwnersAgainBitForBit)
+{
+  auto const comm = Tpetra::getDefaultComm();
+  HostMesh const whole = rectilinearMesh(gradedCoordinates(0.0, 1.0, nx, 1.0), gradedCoordinates(0.0, 1.0, ny, 1.0));
+  Mesh const mesh = buildLocalMesh(whole, partitionCells(whole, comm->getSize()), comm->getRank(), 3);
+  TpetraExchange const exchange(comm, mesh);
+  Fields const truth = makeFields(mesh, GetParam(), false);
+  View<double *[2]> const velocity("velocity", truth.dof_nodes.num_dof_nodes);
+  Kokkos::deep_copy(velocity, truth.state.velocity);
+  Kokkos::parallel_for(
+      "spoil", RangePolicy(0, truth.dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+        if (mesh.node_depth(truth.dof_nodes.node(dof)) > 0)
+          velocity(dof, 0) = velocity(dof, 1) = -9.0;
+      });
+  exchangeDofVelocities(mesh, exchange, truth.pairs, velocity);
+  expectSame(velocity, truth.state.velocity, "velocity");
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinematics, ExchangeState, ::testing::Values(Kinematics::Xfem, Kinematics::Single));
 
 TEST(ExchangeStateDepth, exchangeShallowerThanTheHalo_deeperCellsAreEmpty)

@@ -4,7 +4,7 @@
 
 #include <detail/Harmos_CornerRotation.hpp>
 #include <detail/Harmos_RemapClasses.hpp>
-#include <detail/Harmos_SweptFluxes.hpp>
+#include <detail/Harmos_SweptStage.hpp>
 
 namespace Harmos
 {

@@ -5,6 +5,7 @@
 #include <Harmos_Kokkos.hpp>
 
 #include <cstring>
+#include <utility>
 
 namespace Harmos
 {
@@ -61,6 +62,28 @@ struct FieldPack
   static constexpr int parts = fields / width;
   Lanes part[parts];
 
+  using Lane = std::make_integer_sequence<int, width>;
+#if defined(HARMOS_FIELD_VECTORS) && (defined(__clang__) || __GNUC__ >= 12)
+  template <int At, int... L>
+  KOKKOS_INLINE_FUNCTION static Lanes replaced(Lanes const &a, double x, std::integer_sequence<int, L...>)
+  {
+    return __builtin_shufflevector(a, lanes(x), (L == At ? width + L : L)...);
+  }
+#elif defined(HARMOS_FIELD_VECTORS)
+  template <int At, int... L>
+  KOKKOS_INLINE_FUNCTION static Lanes replaced(Lanes a, double x, std::integer_sequence<int, L...>)
+  {
+    a[At] = x;
+    return a;
+  }
+#else
+  template <int At, int... L>
+  KOKKOS_INLINE_FUNCTION static Lanes replaced(Lanes, double x, std::integer_sequence<int, L...>)
+  {
+    return x;
+  }
+#endif
+
   KOKKOS_INLINE_FUNCTION FieldPack() {}
   KOKKOS_INLINE_FUNCTION explicit FieldPack(double x)
   {
@@ -71,6 +94,17 @@ struct FieldPack
   {
     for (int p = 0; p < parts; ++p)
       std::memcpy(&part[p], x + p * width, sizeof(Lanes));
+  }
+#ifdef HARMOS_FIELD_VECTORS
+  KOKKOS_INLINE_FUNCTION double operator[](int field) const { return part[field / width][field % width]; }
+#else
+  KOKKOS_INLINE_FUNCTION double operator[](int field) const { return part[field]; }
+#endif
+  /// One field replaced, within registers: a value stored into a vector in memory would hold up the next load of it.
+  template <int Field>
+  KOKKOS_INLINE_FUNCTION void set(double x)
+  {
+    part[Field / width] = replaced<Field % width>(part[Field / width], x, Lane());
   }
   KOKKOS_INLINE_FUNCTION void store(double *x) const
   {
@@ -149,11 +183,32 @@ KOKKOS_INLINE_FUNCTION FieldPack select(FieldPack const &a, FieldPack const &b, 
   return r;
 }
 
+/// Whether a < b in any field.
+KOKKOS_INLINE_FUNCTION bool anyLess(FieldPack const &a, FieldPack const &b)
+{
+  bool any = false;
+#ifdef HARMOS_FIELD_VECTORS
+  auto mask = a.part[0] < b.part[0];
+  for (int p = 1; p < FieldPack::parts; ++p)
+    mask |= a.part[p] < b.part[p];
+  for (int lane = 0; lane < FieldPack::width; ++lane)
+    any = any || mask[lane] != 0;
+#else
+  for (int p = 0; p < FieldPack::parts; ++p)
+    any = any || a.part[p] < b.part[p];
+#endif
+  return any;
+}
+
 /// The weights of a record's fields: volume for density and deviator, mass for the primitives.
 KOKKOS_INLINE_FUNCTION FieldPack fieldWeights(double volume, double mass)
 {
-  double const by_mass[FieldPack::fields] = {0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-  return select(FieldPack(0.5), FieldPack(by_mass), FieldPack(mass), FieldPack(volume));
+  FieldPack w(volume);
+  w.set<1>(mass);
+  w.set<2>(mass);
+  w.set<3>(mass);
+  w.set<4>(mass);
+  return w;
 }
 
 } // namespace RemapDetail

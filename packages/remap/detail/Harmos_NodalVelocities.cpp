@@ -20,6 +20,7 @@ struct NodalVelocityFunctor
   View<double *[num_pair_fields]> record;
   View<int *> candidate;
   View<double *[2]> velocity;
+  bool in_place;
 
   /// Whether a cell around the node changed in stage 2.
   KOKKOS_INLINE_FUNCTION bool changed(int node) const
@@ -59,38 +60,49 @@ struct NodalVelocityFunctor
     return mass;
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(int node, double &impulse_x, double &impulse_y) const
+  KOKKOS_INLINE_FUNCTION void copyFinal(int node) const
   {
-    bool const gathers = classes.num_interface > 0 && changed(node);
+    for (int dof = dof_nodes.offset(node); dof < dof_nodes.offset(node + 1); ++dof)
+    {
+      int const old = in.dof_nodes.find(node, dof_nodes.material(dof));
+      velocity(dof, 0) = stage.velocity(old, 0);
+      velocity(dof, 1) = stage.velocity(old, 1);
+    }
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int node, double &impulse_x, double &impulse_y, double &kinetic) const
+  {
+    if (classes.node_final(node) != 0)
+    {
+      if (!in_place)
+        copyFinal(node);
+      return;
+    }
+    bool const gathers = changed(node);
+    bool const owned = in.mesh.node_owned(node) != 0;
     int const condition = in.conditions.node_index(node);
     for (int dof = dof_nodes.offset(node); dof < dof_nodes.offset(node + 1); ++dof)
     {
       int const old = in.dof_nodes.find(node, dof_nodes.material(dof));
-      Vector2 v{0.0, 0.0};
-      double four_mass = 0.0;
-      if (gathers)
-      {
-        Vector2 momentum;
-        four_mass = gather(node, dof, momentum);
-        if (four_mass > 0.0)
-          v = (1.0 / four_mass) * momentum;
-      }
-      else
+      Vector2 v{0.0, 0.0}, momentum;
+      double const four_mass = gather(node, dof, momentum);
+      if (!gathers)
         v = {stage.velocity(old, 0), stage.velocity(old, 1)};
+      else if (four_mass > 0.0)
+        v = (1.0 / four_mass) * momentum;
       bool const same = old >= 0 && v[0] == in.half(old, 0) && v[1] == in.half(old, 1);
-      if (condition >= 0 && !same)
+      if (condition >= 0 && !same && four_mass > 0.0)
       {
-        Vector2 momentum;
-        if (!gathers)
-          four_mass = gather(node, dof, momentum);
-        Vector2 const imposed = four_mass > 0.0 ? in.conditions.condition(condition).apply(v) : v;
-        if (in.mesh.node_owned(node) != 0)
+        Vector2 const imposed = in.conditions.condition(condition).apply(v);
+        if (owned)
         {
           impulse_x += 0.25 * four_mass * (imposed[0] - v[0]);
           impulse_y += 0.25 * four_mass * (imposed[1] - v[1]);
         }
         v = imposed;
       }
+      if (owned)
+        kinetic += 0.125 * four_mass * dot(v, v);
       velocity(dof, 0) = v[0];
       velocity(dof, 1) = v[1];
     }
@@ -99,16 +111,17 @@ struct NodalVelocityFunctor
 
 } // namespace
 
-Vector2 nodalVelocities(Input const &in, Classes const &classes, StageState const &stage, Acceptors const &acceptors,
-                        Rebuilt const &rebuilt)
+void nodalVelocities(Input const &in, Classes const &classes, StageState const &stage, Acceptors const &acceptors,
+                     Rebuilt const &rebuilt, bool in_place, SweptSums &sums)
 {
-  Vector2 impulse{0.0, 0.0};
   RemapResult const &out = rebuilt.result;
+  double impulse_x = 0.0, impulse_y = 0.0, kinetic = 0.0;
   Kokkos::parallel_reduce("Harmos::remap::nodalVelocities", RangePolicy(0, in.mesh.num_nodes),
                           NodalVelocityFunctor{in, classes, stage, acceptors, out.pairs, out.dof_nodes,
-                                               out.state.record, rebuilt.candidate, out.state.velocity},
-                          impulse[0], impulse[1]);
-  return impulse;
+                                               out.state.record, rebuilt.candidate, out.state.velocity, in_place},
+                          impulse_x, impulse_y, kinetic);
+  sums.wall_impulse += Vector2{impulse_x, impulse_y};
+  sums.kinetic_after += kinetic;
 }
 
 double kineticEnergy(Input const &in, CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,

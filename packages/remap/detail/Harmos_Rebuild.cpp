@@ -121,19 +121,33 @@ void copyCandidates(Classes const &classes, Acceptors const &acceptors, Rebuilt 
       });
 }
 
-void updateCellKinds(Classes const &classes, Rebuilt const &out)
+/// Kinds of the interface cells; the array of the input stays where none changes.
+void updateCellKinds(Input const &in, Classes const &classes, Rebuilt &out)
 {
-  CellMaterialPairs const pairs = out.result.pairs;
-  PairState const state = out.result.state;
-  Kokkos::parallel_for(
-      "Harmos::remap::updateCellKinds", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int i) {
+  CellMaterialPairs &pairs = out.result.pairs;
+  View<double *[num_pair_fields]> const record = out.result.state.record;
+  View<int *> const offset = pairs.offset;
+  View<int *> const old_kind = in.pairs.cell_kind;
+  View<int *> const kind = scratch<int *>("interfaceKind", classes.num_interface);
+  int changed = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::remap::interfaceKinds", RangePolicy(0, classes.num_interface),
+      KOKKOS_LAMBDA(int i, int &sum) {
         int const cell = classes.interface_cell(i);
-        int const first = pairs.offset(cell);
-        int const count = pairs.offset(cell + 1) - first;
-        pairs.cell_kind(cell) = count == 0                                                 ? VoidCell
-                                : count == 1 && state.record(first, VolumeFraction) == 1.0 ? PureCell
-                                                                                           : MixedCell;
-      });
+        int const first = offset(cell);
+        int const count = offset(cell + 1) - first;
+        kind(i) = count == 0 ? VoidCell : count == 1 && record(first, VolumeFraction) == 1.0 ? PureCell : MixedCell;
+        sum += kind(i) != old_kind(cell) ? 1 : 0;
+      },
+      changed);
+  if (changed == 0)
+    return;
+  pairs.cell_kind = scratch<int *>("cellKind", in.mesh.num_cells);
+  Kokkos::deep_copy(pairs.cell_kind, old_kind);
+  View<int *> const cell_kind = pairs.cell_kind;
+  Kokkos::parallel_for(
+      "Harmos::remap::updateCellKinds", RangePolicy(0, classes.num_interface),
+      KOKKOS_LAMBDA(int i) { cell_kind(classes.interface_cell(i)) = kind(i); });
 }
 
 } // namespace
@@ -162,16 +176,12 @@ Rebuilt rebuild(Input const &in, Kinematics kinematics, Classes const &classes, 
   out.result.state.centroid = scratch<double *[2]>("centroid", pairs.num_pairs);
   out.candidate = scratch<int *>("pairCandidate", pairs.num_pairs);
   if (same)
-  {
     Kokkos::deep_copy(out.result.state.centroid, in.state.centroid);
-    pairs.cell_kind = scratch<int *>("cellKind", in.mesh.num_cells);
-    Kokkos::deep_copy(pairs.cell_kind, in.pairs.cell_kind);
-  }
   else
     copyStage(in, classes, stage, out);
   copyCandidates(classes, acceptors, out);
   if (same)
-    updateCellKinds(classes, out);
+    updateCellKinds(in, classes, out);
   else
   {
     pairs.dof_node = {};

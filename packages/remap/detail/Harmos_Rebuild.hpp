@@ -22,12 +22,14 @@ struct Rebuilt
 Rebuilt rebuild(Input const &in, Kinematics kinematics, Classes const &classes, StageState const &stage,
                 Acceptors const &acceptors);
 
-/// New velocities of the dof nodes: the mean of the corner velocities around, weighted by mass (a quarter of each
-/// pair's); as after stage 1 where nothing around took part in stage 2. Node conditions are imposed on what changed.
+/// New velocities of the dof nodes that are not final after stage 1: the mean of the corner velocities around, weighted
+/// by mass (a quarter of each pair's); as after stage 1 where nothing around changed in stage 2. Node conditions are
+/// imposed on what changed. Final nodes are copied, unless the velocities are those of stage 1 in place.
 ///
-/// \return Impulse of the node conditions at owned nodes, sum m (v_imposed - v).
-Vector2 nodalVelocities(Input const &in, Classes const &classes, StageState const &stage, Acceptors const &acceptors,
-                        Rebuilt const &rebuilt);
+/// \param sums The impulse of the node conditions at owned nodes, sum m (v_imposed - v), and the kinetic energy after
+///             are added.
+void nodalVelocities(Input const &in, Classes const &classes, StageState const &stage, Acceptors const &acceptors,
+                     Rebuilt const &rebuilt, bool in_place, SweptSums &sums);
 
 /// Kinetic energy of the deformable pairs of owned cells, with corner masses m / 4.
 double kineticEnergy(Input const &in, CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,

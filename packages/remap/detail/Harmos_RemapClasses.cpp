@@ -131,6 +131,46 @@ int listCells(View<int *> const &index, View<int *> &list)
   return total;
 }
 
+/// Flags of the pure cells, marks of the interface cells. Returns the number of cells with a swept node.
+int markCells(Input const &in, Classes const &classes)
+{
+  int num_swept = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::remap::markCells", RangePolicy(0, in.mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &sum) {
+        int const material = classes.pure_material(cell);
+        int flags = material >= 0 ? PureCellBit : 0;
+        int interface = holdsRigid(in, cell) ? 1 : 0;
+        for (int k = 0; k < 4; ++k)
+        {
+          int const kind = classes.node_return(in.mesh.cell_node(cell, k));
+          interface |= kind == InterfaceNode ? 1 : 0;
+          if (material < 0)
+            continue;
+          int const face = in.mesh.face_neighbour(cell, k);
+          flags |= kind == SweptNode ? SweptCornerBit << k : 0;
+          flags |= face >= 0 ? NeighbourBit << k : 0;
+          flags |= face >= 0 && classes.pure_material(face / 4) == material ? SameBeyondBit << k : 0;
+        }
+        classes.flags(cell) = flags;
+        classes.interface_index(cell) = interface;
+        sum += (flags & all_swept_corners) != 0 ? 1 : 0;
+      },
+      num_swept);
+  return num_swept;
+}
+
+void markFinalNodes(Input const &in, Classes const &classes)
+{
+  Kokkos::parallel_for(
+      "Harmos::remap::markFinalNodes", RangePolicy(0, in.mesh.num_nodes), KOKKOS_LAMBDA(int node) {
+        bool final = true;
+        for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
+          final = final && classes.interface_index(in.mesh.node_cell.item(j) / 4) < 0;
+        classes.node_final(node) = final ? 1 : 0;
+      });
+}
+
 } // namespace
 
 Classes classify(Input const &in)
@@ -138,29 +178,16 @@ Classes classify(Input const &in)
   int const cells = in.mesh.num_cells;
   Classes classes;
   classes.node_return = scratch<int *>("nodeReturn", in.mesh.num_nodes);
+  classes.node_final = scratch<int *>("nodeFinal", in.mesh.num_nodes);
   classes.pure_material = scratch<int *>("pureMaterial", cells);
   classes.interface_index = scratch<int *>("interfaceIndex", cells);
-  View<int *> const interface_mark = classes.interface_index;
-  View<int *> const swept_mark = scratch<int *>("sweptIndex", cells);
+  classes.flags = scratch<int *>("sweptFlags", cells);
   classifyMaterials(in, classes);
   classifyBoundaries(in, classes);
   classifyNodes(in, classes);
-  Classes const known = classes;
-  Kokkos::parallel_for(
-      "Harmos::remap::markCells", RangePolicy(0, cells), KOKKOS_LAMBDA(int cell) {
-        int swept = 0;
-        int interface = holdsRigid(in, cell) ? 1 : 0;
-        for (int k = 0; k < 4; ++k)
-        {
-          int const kind = known.node_return(in.mesh.cell_node(cell, k));
-          swept |= kind == SweptNode ? 1 : 0;
-          interface |= kind == InterfaceNode ? 1 : 0;
-        }
-        swept_mark(cell) = swept;
-        interface_mark(cell) = interface;
-      });
-  classes.num_swept = listCells(swept_mark, classes.swept_cell);
-  classes.num_interface = listCells(interface_mark, classes.interface_cell);
+  classes.num_swept = markCells(in, classes);
+  classes.num_interface = listCells(classes.interface_index, classes.interface_cell);
+  markFinalNodes(in, classes);
   return classes;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <detail/Harmos_SweptFluxes.hpp>
+#include <detail/Harmos_SweptStage.hpp>
 
-#include <detail/Harmos_FieldPack.hpp>
+#include <Harmos_Select.hpp>
 
 namespace Harmos
 {
@@ -11,221 +11,239 @@ namespace RemapDetail
 namespace
 {
 
-/// Centroid of the area that an edge a->b sweeps when its ends move by u_a, u_b, from the ends' mid-step positions.
-KOKKOS_INLINE_FUNCTION Vector2 sweptCentroid(Vector2 const &a, Vector2 const &b, Vector2 const &u_a, Vector2 const &u_b)
+/// The cells of a pack, and the cells beyond their faces: the cell itself where that one does not count, so that the
+/// difference is nothing and the range does not grow.
+struct FluxCells
 {
-  Vector2 const edge = b - a;
-  double const depth_a = cross(u_a, edge);
-  double const depth_b = cross(u_b, edge);
-  double s = 0.5;
-  if (depth_a * depth_b >= 0.0 && depth_a + depth_b != 0.0)
-    s = (depth_a + 2.0 * depth_b) / (3.0 * (depth_a + depth_b));
-  return a + s * edge;
-}
+  int cell[pack_width];
+  int pair[pack_width];
+  int beyond[4][pack_width];
+  int beyond_pair[4][pack_width];
+  unsigned lanes; // that are stored
+};
+
+/// The faces through which the cells lose material.
+struct Outflow
+{
+  Pack volume[4];
+  Pack x[4], y[4]; // swept centroids from the cell's; zero where nothing leaves
+  bool leaves[4];  // in any lane
+  Pack staying, moved_volume;
+};
+
+/// Two differences across the cell and the 2 x 2 matrix that makes a gradient of them, by columns.
+struct Directions
+{
+  Pack x0, x1, y0, y1;
+};
 
 struct SweptFluxFunctor
 {
-  Input in;
-  Classes classes;
-  View<double *[8]> moved_record;
-  View<double *[16]> geometry;
-  View<double *[4][8]> flux;
+  SweptStage stage;
+  int begin, end;
 
-  struct Gradient
+  /// What the packs of one field need.
+  struct Field
   {
-    FieldPack x, y, lower, upper; // and the range of the cell and its face neighbours
+    Pack q, gradient_x, gradient_y, lower, upper;
   };
 
-  KOKKOS_INLINE_FUNCTION FieldPack load(int cell) const { return FieldPack(&moved_record(cell, 0)); }
-
-  /// Linear-exact gradient from the differences across the cell along its two directions.
-  KOKKOS_INLINE_FUNCTION void differentiate(int cell, FieldPack const &q, Gradient &g) const
+  KOKKOS_FORCEINLINE_FUNCTION bool selectCells(int block, FluxCells &cells) const
   {
-    FieldPack difference[2] = {FieldPack(0.0), FieldPack(0.0)};
-    Vector2 d[2] = {{0.0, 0.0}, {0.0, 0.0}};
-    Vector2 const centroid{geometry(cell, CentroidX), geometry(cell, CentroidY)};
-    int const material = classes.pure_material(cell);
+    int const first = begin + block * pack_width;
+    int const count = Math::min(pack_width, end - first);
+    int lead = -1;
+    cells.lanes = 0u;
+    for (int lane = 0; lane < count; ++lane)
+      if ((stage.classes.flags(first + lane) & all_swept_corners) != 0)
+      {
+        cells.lanes |= 1u << lane;
+        lead = lead < 0 ? lane : lead;
+      }
+    if (cells.lanes == 0u)
+      return false;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      int const cell = first + ((cells.lanes >> lane & 1u) != 0u ? lane : lead);
+      int const flags = stage.classes.flags(cell);
+      cells.cell[lane] = cell;
+      cells.pair[lane] = stage.in.pairs.offset(cell);
+      for (int k = 0; k < 4; ++k)
+      {
+        bool const same = (flags & SameBeyondBit << k) != 0 && stage.in.options.order > 1;
+        int const beyond = same ? stage.in.mesh.face_neighbour(cell, k) >> 2 : cell;
+        cells.beyond[k][lane] = beyond;
+        cells.beyond_pair[k][lane] = stage.in.pairs.offset(beyond);
+      }
+    }
+    return true;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void loadGeometry(int const cell[pack_width], Pack (&row)[8]) const
+  {
+    loadRows([&](int lane) { return &stage.window.cell(stage.window.row(cell[lane]), 0); }, row);
+  }
+
+  /// Linear-exact gradient from the differences across the cell along its two directions (faces 0 -> 2 and 3 -> 1).
+  KOKKOS_FORCEINLINE_FUNCTION static Directions invert(Pack const (&x)[4], Pack const (&y)[4])
+  {
+    Pack ax = x[2] - x[0], ay = y[2] - y[0];
+    Pack bx = x[1] - x[3], by = y[1] - y[3];
+    auto const no_a = ax * ax + ay * ay == Pack(0.0);
+    ax = select(no_a, by, ax);
+    ay = select(no_a, Pack(-bx), ay);
+    auto const no_b = bx * bx + by * by == Pack(0.0);
+    bx = select(no_b, Pack(-ay), bx);
+    by = select(no_b, ax, by);
+    Pack const det = ax * by - ay * bx;
+    auto const flat = det == Pack(0.0);
+    Pack const inverse = select(flat, Pack(0.0), Pack(1.0 / select(flat, Pack(1.0), det)));
+    return {inverse * by, -(inverse * ay), -(inverse * bx), inverse * ax};
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION static Field differentiate(Directions const &d, Pack const &q, Pack const (&p)[4])
+  {
+    Pack const along = p[2] - p[0], across = p[1] - p[3];
+    return {q, d.x0 * along + d.x1 * across, d.y0 * along + d.y1 * across,
+            Math::min(Math::min(q, Math::min(p[0], p[1])), Math::min(p[2], p[3])),
+            Math::max(Math::max(q, Math::max(p[0], p[1])), Math::max(p[2], p[3]))};
+  }
+
+  /// The deviations from the mean at the faces, and the largest part of them, at most all, that keeps those and the
+  /// mean of what stays within range.
+  KOKKOS_FORCEINLINE_FUNCTION static Pack limit(Field const &f, Outflow const &out, Pack const (&weight)[4],
+                                                Pack const &per_staying, Pack (&deviation)[4])
+  {
+    Pack low = 0.0, high = 0.0, left = 0.0;
     for (int k = 0; k < 4; ++k)
     {
-      int const face = in.mesh.face_neighbour(cell, k);
-      if (face < 0 || classes.pure_material(face / 4) != material)
+      if (!out.leaves[k])
         continue;
-      int const neighbour = face / 4;
-      FieldPack const p = load(neighbour);
-      Vector2 const to = Vector2{geometry(neighbour, CentroidX), geometry(neighbour, CentroidY)} - centroid;
-      if (k == 1 || k == 2)
-      {
-        d[k % 2] += to;
-        difference[k % 2] += p - q;
-      }
-      else
-      {
-        d[k % 2] -= to;
-        difference[k % 2] -= p - q;
-      }
-      g.lower = min(g.lower, p);
-      g.upper = max(g.upper, p);
+      deviation[k] = out.x[k] * f.gradient_x + out.y[k] * f.gradient_y;
+      low = Math::min(low, deviation[k]);
+      high = Math::max(high, deviation[k]);
+      left -= weight[k] * deviation[k];
     }
-    if (dot(d[0], d[0]) == 0.0)
-      d[0] = -perpendicular(d[1]);
-    if (dot(d[1], d[1]) == 0.0)
-      d[1] = perpendicular(d[0]);
-    double const det = cross(d[0], d[1]);
-    double const inverse = det != 0.0 ? 1.0 / det : 0.0;
-    g.x = (inverse * d[1][1]) * difference[0] - (inverse * d[0][1]) * difference[1];
-    g.y = (inverse * d[0][0]) * difference[1] - (inverse * d[1][0]) * difference[0];
+    left = left * per_staying;
+    Pack const most = Math::max(high, left);
+    Pack const drop = -Math::min(low, left);
+    Pack const above = f.upper - f.q;
+    Pack const below = f.q - f.lower;
+    // The lesser of two quotients by one division, without a branch: noise would decide it.
+    auto const up = most > above, down = drop > below;
+    Pack const up_part = select(up, above, Pack(1.0)), up_whole = select(up, most, Pack(1.0));
+    Pack const down_part = select(down, below, Pack(1.0)), down_whole = select(down, drop, Pack(1.0));
+    auto const rising = up_part * down_whole < down_part * up_whole;
+    return select(rising, up_part, down_part) / select(rising, up_whole, down_whole);
   }
 
-  /// The largest part of a deviation from q, at most all of it, that keeps q + [least, most] within [lower, upper].
-  KOKKOS_INLINE_FUNCTION static FieldPack limiter(FieldPack const &q, Gradient const &g, FieldPack const &least,
-                                                  FieldPack const &most)
+  KOKKOS_FORCEINLINE_FUNCTION static Outflow outflow(Pack const (&row)[8], Pack const (&centre)[8])
   {
-    FieldPack const one(1.0), tiny(1e-300);
-    FieldPack const above = g.upper - q;
-    FieldPack const below = q - g.lower;
-    FieldPack const drop = FieldPack(0.0) - least;
-    FieldPack const up = select(above, most, above / max(most, tiny), one);
-    FieldPack const down = select(below, drop, below / max(drop, tiny), one);
-    return min(up, down);
-  }
-
-  KOKKOS_INLINE_FUNCTION static double densityLimiter(double q, double lower, double upper, double least, double most)
-  {
-    double const up = most > upper - q ? (upper - q) / most : 1.0;
-    double const down = least < lower - q ? (lower - q) / least : 1.0;
-    return up < down ? up : down;
-  }
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const
-  {
-    int const cell = classes.swept_cell(i);
-    double volume[4]; // that leave
-    bool leaves = false;
-    double staying = geometry(cell, MovedVolume);
+    Outflow out;
+    out.moved_volume = out.staying = row[MovedVolume];
     for (int k = 0; k < 4; ++k)
     {
-      volume[k] = Math::max(geometry(cell, FirstFace + 3 * k), 0.0);
-      leaves = leaves || volume[k] > 0.0;
-      staying -= volume[k];
+      auto const leaves = row[SweptVolume + k] > Pack(0.0);
+      out.leaves[k] = any(leaves);
+      out.volume[k] = select(leaves, row[SweptVolume + k], Pack(0.0));
+      out.x[k] = select(leaves, centre[2 * k], Pack(0.0));
+      out.y[k] = select(leaves, centre[2 * k + 1], Pack(0.0));
+      out.staying = out.staying - out.volume[k];
     }
-    if (!leaves)
-      return;
-    FieldPack const q = load(cell);
-    Gradient g;
-    g.lower = g.upper = q;
-    if (in.options.order > 1)
-    {
-      differentiate(cell, q, g);
-      writeFluxes(cell, volume, staying, q, g);
-      return;
-    }
-    for (int k = 0; k < 4; ++k)
-      if (volume[k] > 0.0)
-        (fieldWeights(volume[k], volume[k] * moved_record(cell, DensityField)) * q).store(&flux(cell, k, 0));
+    return out;
   }
 
-  KOKKOS_INLINE_FUNCTION void writeFluxes(int cell, double const volume[4], double staying, FieldPack const &q,
-                                          Gradient const &g) const
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block) const
   {
+    FluxCells cells;
+    if (!selectCells(block, cells))
+      return;
+    Pack row[8], centre[8];
+    loadGeometry(cells.cell, row);
+    loadRows([&](int lane) { return &stage.window.face_centroid(stage.window.row(cells.cell[lane]), 0); }, centre);
+    Outflow const out = outflow(row, centre);
+    if (!(out.leaves[0] || out.leaves[1] || out.leaves[2] || out.leaves[3]))
+      return;
+    Pack x[4], y[4], density[4];
+    for (int k = 0; k < 4; ++k)
+    {
+      Pack beyond[8];
+      loadGeometry(cells.beyond[k], beyond);
+      x[k] = beyond[CentroidX] - row[CentroidX];
+      y[k] = beyond[CentroidY] - row[CentroidY];
+      density[k] = beyond[MovedDensity];
+    }
+    Directions const directions = invert(x, y);
+
     // Density first: it gives the mass fluxes that weigh the primitives.
-    double const rho = moved_record(cell, DensityField);
-    double gradient_x[8], gradient_y[8], lower[8], upper[8];
-    g.x.store(gradient_x);
-    g.y.store(gradient_y);
-    g.lower.store(lower);
-    g.upper.store(upper);
-    double deviation[4];
-    double least = 0.0, most = 0.0, rest = 0.0;
+    Pack const rho = row[MovedDensity];
+    Pack const per_volume = 1.0 / out.staying;
+    Pack deviation[4] = {}, mass[4], flux[4][pack_width];
+    Pack const part = limit(differentiate(directions, rho, density), out, out.volume, per_volume, deviation);
+    Pack staying_mass = out.moved_volume * rho;
     for (int k = 0; k < 4; ++k)
     {
-      deviation[k] =
-          gradient_x[0] * geometry(cell, FirstFace + 3 * k + 1) + gradient_y[0] * geometry(cell, FirstFace + 3 * k + 2);
-      least = Math::min(least, deviation[k]);
-      most = Math::max(most, deviation[k]);
-      rest -= volume[k] * deviation[k];
-    }
-    rest /= staying;
-    double const alpha = densityLimiter(rho, lower[0], upper[0], Math::min(least, rest), Math::max(most, rest));
-    double mass[4];
-    double staying_mass = geometry(cell, MovedVolume) * rho;
-    for (int k = 0; k < 4; ++k)
-    {
-      mass[k] = volume[k] * (rho + alpha * deviation[k]);
+      mass[k] = 0.0;
+      if (out.leaves[k])
+        mass[k] = out.volume[k] * (rho + part * deviation[k]);
       staying_mass -= mass[k];
     }
-    FieldPack value[4];
-    FieldPack low(0.0), high(0.0), left(0.0);
-    for (int k = 0; k < 4; ++k)
+    Pack const per_mass = 1.0 / staying_mass;
+
+    for (int first = 0; first < num_pair_fields; first += pack_width)
     {
-      if (volume[k] <= 0.0)
-        continue;
-      value[k] = geometry(cell, FirstFace + 3 * k + 1) * g.x + geometry(cell, FirstFace + 3 * k + 2) * g.y;
-      low = min(low, value[k]);
-      high = max(high, value[k]);
-      left -= fieldWeights(volume[k], mass[k]) * value[k];
+      Pack q[pack_width], p[4][pack_width];
+      loadFields(cells.pair, first, q);
+      for (int k = 0; k < 4; ++k)
+        loadFields(cells.beyond_pair[k], first, p[k]);
+      for (int i = 0; i < pack_width; ++i)
+      {
+        int const field = first + i;
+        if (field == DensityField || (field == KineticField && !stage.carries()))
+        {
+          for (int k = 0; k < 4; ++k)
+            flux[k][i] = mass[k];
+          continue;
+        }
+        bool const by_volume = field >= DeviatorXX;
+        Pack const beyond[4] = {p[0][i], p[1][i], p[2][i], p[3][i]};
+        Pack const a = limit(differentiate(directions, q[i], beyond), out, by_volume ? out.volume : mass,
+                             by_volume ? per_volume : per_mass, deviation);
+        for (int k = 0; k < 4; ++k)
+          if (out.leaves[k])
+            flux[k][i] = (by_volume ? out.volume[k] : mass[k]) * (q[i] + a * deviation[k]);
+      }
+      for (int k = 0; k < 4; ++k)
+        if (out.leaves[k])
+          storeFluxes(cells, k, first, flux[k]);
     }
-    left *= fieldWeights(1.0 / staying, 1.0 / staying_mass);
-    FieldPack const a = limiter(q, g, min(low, left), max(high, left));
-    for (int k = 0; k < 4; ++k)
-    {
-      if (volume[k] <= 0.0)
-        continue;
-      (fieldWeights(volume[k], mass[k]) * (q + a * value[k])).store(&flux(cell, k, 0));
-      flux(cell, k, DensityField) = mass[k];
-    }
+  }
+
+  /// Fields first .. first + pack_width - 1 of the records; kinetic energy in place of the volume fraction.
+  KOKKOS_FORCEINLINE_FUNCTION void loadFields(int const pair[pack_width], int first, Pack (&q)[pack_width]) const
+  {
+    for (int lane = 0; lane < pack_width; ++lane)
+      q[lane] = loadPack(&stage.in.state.record(pair[lane], first));
+    transpose(q);
+    if (stage.carries() && first <= KineticField && KineticField < first + pack_width)
+      q[KineticField - first] = packOf([&](int lane) { return stage.kinetic(pair[lane]); });
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void storeFluxes(FluxCells const &cells, int k, int first, Pack (&flux)[pack_width]) const
+  {
+    transpose(flux);
+    for (int lane = 0; lane < pack_width; ++lane)
+      if ((cells.lanes >> lane & 1u) != 0u)
+        storePack(&stage.window.flux(stage.window.row(cells.cell[lane]), k, first), flux[lane]);
   }
 };
 
 } // namespace
 
-void sweptGeometry(Input const &in, Classes const &classes, View<double *> const &kinetic, RemapWork const &work)
+void sweptFluxes(SweptStage const &stage, int begin, int end)
 {
-  bool const carries = kinetic.extent(0) > 0;
-  View<double *[16]> const geometry = work.geometry;
-  View<double *[8]> const moved_record = work.moved_record;
-  Kokkos::parallel_for(
-      "Harmos::remap::sweptGeometry", RangePolicy(0, in.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        if (classes.pure_material(cell) < 0)
-          return;
-        int const pair = in.pairs.offset(cell);
-        Vector2 moved[4], middle[4], back[4];
-        for (int k = 0; k < 4; ++k)
-        {
-          int const node = in.mesh.cell_node(cell, k);
-          Vector2 const x = in.node(node);
-          Vector2 const u = in.displacement(in.pairs.dof_node(pair, k));
-          bool const swept = classes.node_return(node) == SweptNode;
-          moved[k] = x + u;
-          back[k] = swept ? u : Vector2{0.0, 0.0};
-          middle[k] = swept ? x + 0.5 * u : moved[k];
-        }
-        AreaCentroid const body = areaCentroid(moved);
-        geometry(cell, MovedVolume) = body.area;
-        for (int f = SpecificVolume; f < num_pair_fields; ++f)
-          moved_record(cell, f) = in.state.record(pair, f);
-        moved_record(cell, DensityField) = in.state.record(pair, Mass) / body.area;
-        moved_record(cell, KineticField) = carries ? kinetic(pair) : 0.0;
-        geometry(cell, CentroidX) = body.centroid[0];
-        geometry(cell, CentroidY) = body.centroid[1];
-        for (int k = 0; k < 4; ++k)
-        {
-          int const next = (k + 1) % 4;
-          double const swept =
-              in.mesh.face_neighbour(cell, k) >= 0 ? 0.5 * cross(back[k] + back[next], middle[next] - middle[k]) : 0.0;
-          Vector2 centroid{0.0, 0.0}; // unused where nothing leaves
-          if (swept > 0.0)
-            centroid = sweptCentroid(middle[k], middle[next], back[k], back[next]) - body.centroid;
-          geometry(cell, FirstFace + 3 * k) = swept;
-          geometry(cell, FirstFace + 3 * k + 1) = centroid[0];
-          geometry(cell, FirstFace + 3 * k + 2) = centroid[1];
-        }
-      });
-}
-
-void sweptFluxes(Input const &in, Classes const &classes, RemapWork const &work)
-{
-  Kokkos::parallel_for("Harmos::remap::sweptFluxes", RangePolicy(0, classes.num_swept),
-                       SweptFluxFunctor{in, classes, work.moved_record, work.geometry, work.flux});
+  Kokkos::parallel_for("Harmos::remap::sweptFluxes", RangePolicy(0, numPacks(end - begin)),
+                       SweptFluxFunctor{stage, begin, end});
 }
 
 } // namespace RemapDetail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <detail/Harmos_SweptFluxes.hpp>
+#include <detail/Harmos_SweptStage.hpp>
 
+#include <Harmos_Select.hpp>
 #include <detail/Harmos_FieldPack.hpp>
 
 namespace Harmos
@@ -11,204 +12,255 @@ namespace RemapDetail
 namespace
 {
 
-/// Monotonised central difference of two neighbouring differences.
-KOKKOS_INLINE_FUNCTION double limitedDifference(double upstream, double downstream)
+/// Velocities at the corners of a pack's cells.
+struct PackedCorners
 {
-  double const central = 0.5 * Math::fabs(upstream + downstream);
-  double const bound = 2.0 * Math::min(Math::fabs(upstream), Math::fabs(downstream));
-  double const size = upstream * downstream > 0.0 ? Math::min(central, bound) : 0.0;
-  return upstream > 0.0 ? size : -size;
+  Pack x[4], y[4];
+};
+
+/// Monotonised central difference of two neighbouring differences.
+KOKKOS_FORCEINLINE_FUNCTION Pack limitedDifference(Pack const &upstream, Pack const &downstream)
+{
+  Pack const central = 0.5 * Math::fabs(upstream + downstream);
+  Pack const bound = 2.0 * Math::min(Math::fabs(upstream), Math::fabs(downstream));
+  Pack const size = select(upstream * downstream > Pack(0.0), Math::min(central, bound), Pack(0.0));
+  return select(upstream > Pack(0.0), size, Pack(-size));
 }
+
+/// Two parallel edges of a cell, edge[0] -> edge[1] and edge[2] -> edge[3]. The nodes where they begin share the face
+/// `behind`, those where they end share `ahead`.
+struct EdgePair
+{
+  int edge[4];
+  int behind, ahead;
+};
 
 struct SweptGatherFunctor
 {
-  Input in;
-  Classes classes;
-  View<double *> kinetic;
-  View<double *[8]> moved_record;
-  View<double *[16]> geometry;
-  View<double *[4][8]> flux;
-  View<double *[8]> increment;
-  View<double *[num_pair_fields]> record1;
-  View<double *> kinetic1;
+  SweptStage stage;
+  int begin, end;
 
-  /// Mass that leaves through each face; change[] sums what all fluxes bring. False where nothing flows.
-  KOKKOS_INLINE_FUNCTION bool gather(int cell, double outflow[4], FieldPack &change, double &volume) const
+  /// What the lanes' cells exchange with their neighbours.
+  struct Exchanged
   {
+    FieldPack change[pack_width];  // sums what all fluxes bring
+    double outflow[4][pack_width]; // mass that leaves through each face
+    double volume[pack_width], moved_volume[pack_width], mass[pack_width];
+  };
+
+  /// False where nothing flows.
+  KOKKOS_FORCEINLINE_FUNCTION bool gather(int cell, int lane, Exchanged &e) const
+  {
+    SweptWindow const &window = stage.window;
+    int const row = window.row(cell);
+    FieldPack change(0.0);
+    double volume = window.cell(row, MovedVolume);
+    e.moved_volume[lane] = volume;
     bool flows = false;
     for (int k = 0; k < 4; ++k)
     {
-      double const swept = geometry(cell, FirstFace + 3 * k);
-      outflow[k] = 0.0;
+      double const swept = window.cell(row, SweptVolume + k);
+      e.outflow[k][lane] = 0.0;
       if (swept == 0.0)
         continue;
       flows = true;
       volume -= swept;
       if (swept > 0.0)
       {
-        outflow[k] = flux(cell, k, DensityField);
-        change -= FieldPack(&flux(cell, k, 0));
+        double const *flux = &window.flux(row, k, 0);
+        e.outflow[k][lane] = flux[DensityField];
+        change -= FieldPack(flux);
       }
       else
       {
-        int const face = in.mesh.face_neighbour(cell, k);
-        outflow[k] = -flux(face / 4, face % 4, DensityField);
-        change += FieldPack(&flux(face / 4, face % 4, 0));
+        int const face = stage.in.mesh.face_neighbour(cell, k);
+        double const *flux = &window.flux(window.row(face >> 2), face & 3, 0);
+        e.outflow[k][lane] = -flux[DensityField];
+        change += FieldPack(flux);
       }
     }
+    e.volume[lane] = volume;
+    e.change[lane] = change;
     return flows;
   }
 
-  KOKKOS_INLINE_FUNCTION void newRecord(int cell, int pair, double const outflow[4], double moved_volume, double volume,
-                                        FieldPack const &change) const
+  KOKKOS_FORCEINLINE_FUNCTION void copyPair(int pair) const
   {
-    double const mass = in.state.record(pair, Mass);
-    double const mass1 = mass - ((outflow[0] + outflow[1]) + (outflow[2] + outflow[3]));
-    FieldPack const q(&moved_record(cell, 0));
-    double q1[FieldPack::fields];
-    ((fieldWeights(moved_volume, mass) * q + change) * fieldWeights(1.0 / volume, 1.0 / mass1)).store(q1);
-    if (kinetic1.extent(0) > 0)
-      kinetic1(pair) = q1[KineticField];
-    q1[Mass] = mass1;
-    q1[VolumeFraction] = 1.0;
-    returnToYield(in.materials(classes.pure_material(cell)), q1);
-    for (int f = 0; f < num_pair_fields; ++f)
-      record1(pair, f) = q1[f];
+    FieldPack(&stage.in.state.record(pair, 0)).store(&stage.record1(pair, 0));
+    if (stage.carries())
+      stage.kinetic1(pair) = stage.kinetic(pair);
   }
 
-  KOKKOS_INLINE_FUNCTION Vector2 velocity(int pair, int corner) const
+  KOKKOS_FORCEINLINE_FUNCTION void newRecord(int cell, int pair, int lane, Exchanged const &e, double mass1,
+                                             double per_volume, double per_mass) const
   {
-    int const dof = in.pairs.dof_node(pair, corner);
-    return {in.half(dof, 0), in.half(dof, 1)};
+    FieldPack q(&stage.in.state.record(pair, 0));
+    q.set<DensityField>(stage.window.cell(stage.window.row(cell), MovedDensity));
+    if (stage.carries())
+      q.set<KineticField>(stage.kinetic(pair));
+    FieldPack q1 =
+        (fieldWeights(e.moved_volume[lane], e.mass[lane]) * q + e.change[lane]) * fieldWeights(per_volume, per_mass);
+    if (stage.carries())
+      stage.kinetic1(pair) = q1[KineticField];
+    q1.set<Mass>(mass1);
+    q1.set<VolumeFraction>(1.0);
+    double *record = &stage.record1(pair, 0);
+    q1.store(record);
+    returnToYield(stage.in.materials(stage.classes.pure_material(cell)), record);
   }
 
-  /// The mass G flows along two parallel edges of a cell, edge[0] -> edge[1] and edge[2] -> edge[3]. The nodes where
-  /// they begin share the face `behind`, those where they end share `ahead`.
-  KOKKOS_INLINE_FUNCTION void advect(int cell, double mass, double G, int const edge[4], int behind, int ahead,
-                                     Vector2 const v[4], Vector2 gain[4]) const
+  /// The dof nodes one edge beyond the upwind nodes of two parallel edges; the upwind nodes themselves where the
+  /// neighbour does not count: then the limited difference is zero.
+  KOKKOS_FORCEINLINE_FUNCTION void dofsBeyond(int cell, int pair, int flags, bool forward, EdgePair const &edges,
+                                              int &first, int &second) const
   {
-    if (G == 0.0)
-      return;
-    bool const forward = G > 0.0;
-    int const upwind_face = forward ? behind : ahead;
-    double const flow = Math::fabs(G);
-    int beyond_face = -1;
-    if (in.options.order > 1)
+    int const upwind_face = forward ? edges.behind : edges.ahead;
+    int const up0 = edges.edge[forward ? 0 : 1];
+    int const up1 = edges.edge[forward ? 2 : 3];
+    if ((flags & SameBeyondBit << upwind_face) == 0 || stage.in.options.order < 2)
     {
-      beyond_face = in.mesh.face_neighbour(cell, upwind_face);
-      if (beyond_face >= 0 && classes.pure_material(beyond_face / 4) != classes.pure_material(cell))
-        beyond_face = -1;
+      first = stage.in.pairs.dof_node(pair, up0);
+      second = stage.in.pairs.dof_node(pair, up1);
+      return;
     }
-    double const courant = Math::min(1.0, 2.0 * flow / mass);
+    // our node k of the face is the neighbour's f + 1, beyond it f + 2; our k + 1 is its f, beyond it f + 3
+    int const face = stage.in.mesh.face_neighbour(cell, upwind_face);
+    int const neighbour = stage.in.pairs.offset(face >> 2);
+    first = stage.in.pairs.dof_node(neighbour, (face + (up0 == upwind_face ? 2 : 3)) & 3);
+    second = stage.in.pairs.dof_node(neighbour, (face + (up1 == upwind_face ? 2 : 3)) & 3);
+  }
+
+  /// Momentum along one edge a -> b: the upwind velocity at the face between them goes with the mass.
+  KOKKOS_FORCEINLINE_FUNCTION static void transfer(Pack::Mask const &forward, Pack const &flow, Pack const &part,
+                                                   Pack const &va, Pack const &vb, Pack const &beyond, Pack &gain_a,
+                                                   Pack &gain_b)
+  {
+    Pack const up = select(forward, va, vb);
+    Pack const down = select(forward, vb, va);
+    Pack const face = up + part * limitedDifference(up - beyond, down - up);
+    Pack const to_down = flow * (face - down);
+    Pack const to_up = flow * (up - face);
+    gain_a += select(forward, to_up, to_down);
+    gain_b += select(forward, to_down, to_up);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void advect(int const cell[pack_width], int const pair[pack_width],
+                                          int const flags[pack_width], Pack const &G, Pack const &per_mass,
+                                          EdgePair const &edges, PackedCorners const &v, PackedCorners &gain) const
+  {
+    auto const forward = G > Pack(0.0);
+    int first[pack_width], second[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      dofsBeyond(cell[lane], pair[lane], flags[lane], laneOf(forward, lane), edges, first[lane], second[lane]);
+    View<double *[2]> const &half = stage.in.half;
+    Pack const flow = Math::fabs(G);
+    Pack const part = 0.5 * (1.0 - Math::min(Pack(1.0), Pack(2.0 * flow * per_mass)));
     for (int e = 0; e < 2; ++e)
     {
-      int const up = forward ? edge[2 * e] : edge[2 * e + 1];
-      int const down = forward ? edge[2 * e + 1] : edge[2 * e];
-      Vector2 face_velocity = v[up];
-      if (beyond_face >= 0)
-      {
-        // our node k of the face is the neighbour's f + 1, beyond it f + 2; our k + 1 is its f, beyond it f + 3
-        int const corner = (beyond_face % 4 + (up == upwind_face ? 2 : 3)) % 4;
-        Vector2 const beyond = velocity(in.pairs.offset(beyond_face / 4), corner);
-        for (int d = 0; d < 2; ++d)
-          face_velocity[d] += 0.5 * (1.0 - courant) * limitedDifference(v[up][d] - beyond[d], v[down][d] - v[up][d]);
-      }
-      gain[down] += flow * (face_velocity - v[down]);
-      gain[up] -= flow * (face_velocity - v[up]);
+      int const a = edges.edge[2 * e], b = edges.edge[2 * e + 1];
+      int const *dof = e == 0 ? first : second;
+      Pack const beyond_x = packOf([&](int lane) { return half(dof[lane], 0); });
+      Pack const beyond_y = packOf([&](int lane) { return half(dof[lane], 1); });
+      transfer(forward, flow, part, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
+      transfer(forward, flow, part, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(int cell) const
+  /// The pure cells of a pack: records and increments. Returns their kinetic energy before.
+  KOKKOS_FORCEINLINE_FUNCTION double exchange(int const cell[pack_width], unsigned pure) const
   {
-    FieldPack change(0.0);
-    double outflow[4];
-    int const first = in.pairs.offset(cell);
-    bool flows = false;
-    if (classes.pure_material(cell) >= 0)
+    Input const &in = stage.in;
+    Exchanged e;
+    int pair[pack_width], flags[pack_width];
+    unsigned flowing = 0u;
+    for (int lane = 0; lane < pack_width; ++lane)
     {
-      double volume = geometry(cell, MovedVolume);
-      double const moved_volume = volume;
-      flows = gather(cell, outflow, change, volume);
-      if (flows)
-        newRecord(cell, first, outflow, moved_volume, volume, change);
+      pair[lane] = in.pairs.offset(cell[lane]);
+      flags[lane] = stage.classes.flags(cell[lane]);
+      e.mass[lane] = in.state.record(pair[lane], Mass);
+      flowing |= (gather(cell[lane], lane, e) ? 1u : 0u) << lane;
     }
-    if (!flows)
+    Pack const mass = packOf([&](int lane) { return e.mass[lane]; });
+    Pack out[4];
+    for (int k = 0; k < 4; ++k)
+      out[k] = packOf([&](int lane) { return e.outflow[k][lane]; });
+    Pack const mass1 = mass - ((out[0] + out[1]) + (out[2] + out[3]));
+    Pack const per_mass1 = 1.0 / mass1;
+    Pack const per_volume = 1.0 / packOf([&](int lane) { return e.volume[lane]; });
+    for (int lane = 0; lane < pack_width; ++lane)
+      if ((pure >> lane & 1u) == 0u)
+        continue;
+      else if ((flowing >> lane & 1u) != 0u)
+        newRecord(cell[lane], pair[lane], lane, e, laneOf(mass1, lane), laneOf(per_volume, lane),
+                  laneOf(per_mass1, lane));
+      else
+        copyPair(pair[lane]);
+
+    PackedCorners v, gain;
+    Pack speed2 = 0.0;
+    for (int k = 0; k < 4; ++k)
     {
-      for (int pair = first; pair < in.pairs.offset(cell + 1); ++pair)
+      int dof[pack_width];
+      for (int lane = 0; lane < pack_width; ++lane)
+        dof[lane] = in.pairs.dof_node(pair[lane], k);
+      v.x[k] = packOf([&](int lane) { return in.half(dof[lane], 0); });
+      v.y[k] = packOf([&](int lane) { return in.half(dof[lane], 1); });
+      gain.x[k] = 0.0;
+      gain.y[k] = 0.0;
+      speed2 += v.x[k] * v.x[k] + v.y[k] * v.y[k];
+    }
+    if (flowing != 0u)
+    {
+      Pack const per_mass = 1.0 / mass;
+      advect(cell, pair, flags, 0.25 * (out[1] - out[3]), per_mass, {{0, 1, 3, 2}, 3, 1}, v, gain);
+      advect(cell, pair, flags, 0.25 * (out[2] - out[0]), per_mass, {{0, 3, 1, 2}, 0, 2}, v, gain);
+    }
+    Pack const row[8] = {gain.x[0], gain.y[0], gain.x[1], gain.y[1], gain.x[2], gain.y[2], gain.x[3], gain.y[3]};
+    storeRows(row, pure, [&](int lane) { return &stage.window.increment(stage.window.row(cell[lane]), 0); });
+
+    Pack const kinetic = 0.125 * mass * speed2;
+    double sum = 0.0;
+    for (int lane = 0; lane < pack_width; ++lane)
+      if ((pure >> lane & 1u) != 0u && in.mesh.cell_depth(cell[lane]) == 0)
+        sum += laneOf(kinetic, lane);
+    return sum;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block, double &kinetic) const
+  {
+    int const first = begin + block * pack_width;
+    int const count = Math::min(pack_width, end - first);
+    unsigned pure = 0u;
+    int lead = -1;
+    for (int lane = 0; lane < count; ++lane)
+    {
+      int const cell = first + lane;
+      if ((stage.classes.flags(cell) & PureCellBit) != 0)
       {
-        for (int f = 0; f < 8; ++f)
-          record1(pair, f) = in.state.record(pair, f);
-        if (kinetic.extent(0) > 0)
-          kinetic1(pair) = kinetic(pair);
+        pure |= 1u << lane;
+        lead = lead < 0 ? lane : lead;
       }
-      if (classes.pure_material(cell) >= 0)
-        for (int i = 0; i < 8; ++i)
-          increment(cell, i) = 0.0;
+      else
+        for (int pair = stage.in.pairs.offset(cell); pair < stage.in.pairs.offset(cell + 1); ++pair)
+          copyPair(pair);
+    }
+    if (pure == 0u)
       return;
-    }
-    Vector2 v[4];
-    Vector2 gain[4];
-    for (int k = 0; k < 4; ++k)
-    {
-      v[k] = velocity(first, k);
-      gain[k] = {0.0, 0.0};
-    }
-    double const mass = in.state.record(first, Mass);
-    int const along[4] = {0, 1, 3, 2};
-    int const across[4] = {0, 3, 1, 2};
-    advect(cell, mass, 0.25 * (outflow[1] - outflow[3]), along, 3, 1, v, gain);
-    advect(cell, mass, 0.25 * (outflow[2] - outflow[0]), across, 0, 2, v, gain);
-    for (int k = 0; k < 4; ++k)
-    {
-      increment(cell, 2 * k) = gain[k][0];
-      increment(cell, 2 * k + 1) = gain[k][1];
-    }
+    int cell[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      cell[lane] = first + ((pure >> lane & 1u) != 0u ? lane : lead);
+    kinetic += exchange(cell, pure);
   }
 };
 
 } // namespace
 
-void sweptGather(Input const &in, Classes const &classes, View<double *> const &kinetic, RemapWork const &work,
-                 View<double *[num_pair_fields]> const &record1, View<double *> const &kinetic1)
+double sweptGather(SweptStage const &stage, int begin, int end)
 {
-  Kokkos::parallel_for("Harmos::remap::sweptGather", RangePolicy(0, in.mesh.num_cells),
-                       SweptGatherFunctor{in, classes, kinetic, work.moved_record, work.geometry, work.flux,
-                                          work.corner_increment, record1, kinetic1});
-}
-
-void sweptMomentum(Input const &in, Classes const &classes, RemapWork const &work,
-                   View<double *[num_pair_fields]> const &record1, View<double *[2]> const &velocity1)
-{
-  View<double *[8]> const increment = work.corner_increment;
-  Kokkos::parallel_for(
-      "Harmos::remap::sweptMomentum", RangePolicy(0, in.mesh.num_nodes), KOKKOS_LAMBDA(int node) {
-        for (int dof = in.dof_nodes.offset(node); dof < in.dof_nodes.offset(node + 1); ++dof)
-        {
-          double four_mass = 0.0;
-          Vector2 gain{0.0, 0.0};
-          for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
-          {
-            int const cell = in.mesh.node_cell.item(j) / 4;
-            int const corner = in.mesh.node_cell.item(j) % 4;
-            int const pure = classes.pure_material(cell);
-            if (pure == -2)
-              continue;
-            for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
-            {
-              if (in.pairs.dof_node(pair, corner) != dof)
-                continue;
-              if (pure < 0 && in.isRigid(in.pairs.material(pair)))
-                continue;
-              four_mass += record1(pair, Mass);
-              if (pure >= 0)
-                gain += {increment(cell, 2 * corner), increment(cell, 2 * corner + 1)};
-            }
-          }
-          double const per_mass = four_mass > 0.0 ? 4.0 / four_mass : 0.0;
-          velocity1(dof, 0) = in.half(dof, 0) + per_mass * gain[0];
-          velocity1(dof, 1) = in.half(dof, 1) + per_mass * gain[1];
-        }
-      });
+  double kinetic = 0.0;
+  Kokkos::parallel_reduce("Harmos::remap::sweptGather", RangePolicy(0, numPacks(end - begin)),
+                          SweptGatherFunctor{stage, begin, end}, kinetic);
+  return kinetic;
 }
 
 } // namespace RemapDetail

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <detail/Harmos_SweptStage.hpp>
+
+#include <Harmos_Pack.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <type_traits>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+namespace
+{
+
+constexpr int least_chunk = 512;
+
+/// Largest distance in numbers of face neighbours.
+int largestStride(Mesh const &mesh)
+{
+  int stride = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::remap::largestStride", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &largest) {
+        for (int k = 0; k < 4; ++k)
+        {
+          int const face = mesh.face_neighbour(cell, k);
+          if (face >= 0)
+            largest = Math::max(largest, face / 4 > cell ? face / 4 - cell : cell - face / 4);
+        }
+      },
+      Kokkos::Max<int>(stride));
+  return stride;
+}
+
+/// Ends of the nodes of each chunk; false where a node would come when rows of its cells are gone.
+bool placeNodes(HostView<int *> const &offset, HostView<int *> const &item, SweptChunks &chunks)
+{
+  int const num_nodes = static_cast<int>(offset.extent(0)) - 1;
+  chunks.node_end.assign(chunks.count, num_nodes);
+  int reached = 0; // chunk of the nodes so far
+  for (int node = 0; node < num_nodes; ++node)
+  {
+    int const begin = offset(node), end = offset(node + 1);
+    if (begin == end)
+      continue;
+    int const first = item(begin) / 4 / chunks.chunk; // ascending
+    int const last = item(end - 1) / 4 / chunks.chunk;
+    for (; reached < last; ++reached)
+      chunks.node_end[reached] = node;
+    if (first + 3 < reached)
+      return false;
+  }
+  return true;
+}
+
+} // namespace
+
+SweptChunks sweptChunks(Mesh const &mesh)
+{
+  SweptChunks chunks;
+  chunks.chunk = least_chunk;
+  bool const on_host = std::is_same<MemorySpace, Kokkos::HostSpace>::value;
+  int const threads = on_host ? ExecutionSpace().concurrency() : 1;
+  int const wanted = on_host ? std::max(largestStride(mesh), least_chunk * threads) : mesh.num_cells;
+  while (chunks.chunk < wanted)
+    chunks.chunk *= 2;
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_cell.offset);
+  auto const item = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_cell.item);
+  for (;; chunks.chunk *= 2)
+  {
+    chunks.count = (mesh.num_cells + chunks.chunk - 1) / chunks.chunk;
+    if (placeNodes(offset, item, chunks) || chunks.count <= 1)
+      return chunks;
+  }
+}
+
+SweptWindow sweptWindow(SweptChunks const &chunks)
+{
+  int const rows = 4 * chunks.chunk;
+  SweptWindow window;
+  window.mask = rows - 1;
+  window.cell = scratch<double *[8]>("sweptCell", rows);
+  window.face_centroid = scratch<double *[8]>("faceCentroid", rows);
+  window.flux = scratch<double *[4][8]>("flux", rows);
+  window.increment = scratch<double *[8]>("cornerIncrement", rows);
+  return window;
+}
+
+SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks)
+{
+  SweptSums sums;
+  int const cells = stage.in.mesh.num_cells;
+  auto const begin = [&](int t) { return std::min(t * chunks.chunk, cells); };
+  int node = 0;
+  for (int t = 0; t < chunks.count + 2; ++t)
+  {
+    if (t < chunks.count)
+      sweptGeometry(stage, begin(t), begin(t + 1));
+    if (t >= 1 && t - 1 < chunks.count)
+      sweptFluxes(stage, begin(t - 1), begin(t));
+    if (t < 2)
+      continue;
+    sums.kinetic_before += sweptGather(stage, begin(t - 2), begin(t - 1));
+    sweptNodes(stage, node, chunks.node_end[t - 2], sums);
+    node = chunks.node_end[t - 2];
+  }
+  return sums;
+}
+
+} // namespace RemapDetail
+} // namespace Harmos
