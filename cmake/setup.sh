@@ -3,6 +3,9 @@
 
 harmos_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
+# Before OMP_NUM_THREADS is set: nproc obeys it.
+harmos_cores=$(nproc)
+
 # Open MPI refuses root and more ranks than cores unless told.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OMP_PROC_BIND=${OMP_PROC_BIND:-false}
@@ -43,7 +46,7 @@ harmos_build()
 {
   local preset=$1
   shift
-  local jobs=${HARMOS_JOBS:-$(nproc)}
+  local jobs=${HARMOS_JOBS:-$harmos_cores}
   local options=()
   command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   [ -n "${CI:-}" ] && options+=(-DHARMOS_WARNINGS_AS_ERRORS=ON)
