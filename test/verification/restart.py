@@ -29,8 +29,11 @@ def same_tables(a, b):
             print(f"  {name}: {len(left)} bytes alike")
 
 
-def goes_on(deck, settings=None, cycles=(33, 60), every=11):
-    """Stop at cycles[0] and go on to cycles[1] from the last checkpoint and from the one before."""
+def goes_on(deck, settings=None, cycles=(33, 60), every=11, same_rows=True):
+    """Stop at cycles[0] and go on to cycles[1] from the last checkpoint and from the one before.
+
+    same_rows: the stopped run writes no row that the whole one lacks, so that the largest errors over rows agree too.
+    """
     settings = settings or {}
     whole = harmos(deck, stop(settings, cycles[1]))
     part = harmos(deck, {**stop(settings, cycles[0]), "output/checkpoint/every_cycles": every})
@@ -41,7 +44,8 @@ def goes_on(deck, settings=None, cycles=(33, 60), every=11):
         shutil.copytree(part.directory, copy)
         r = harmos(deck, stop(settings, cycles[1]), directory=copy, extra=["--restart", str(copy / name)])
         same_tables(whole.directory, copy)
-        for key in ("cycles", "pair_steps", "cell_steps", "mass_error", "momentum_error", "energy_error"):
+        errors = ("mass_error", "momentum_error", "energy_error") if same_rows else ()
+        for key in ("cycles", "pair_steps", "cell_steps", *errors):
             assert r.summary[key] == whole.summary[key], key
         clean(r)
     return whole, part
@@ -66,7 +70,7 @@ def test_lagrangian():
 
 def test_disc_through_plate_with_a_row_every_seventh_cycle():
     # The row at cycle 33 was written because the run ended there: the run that goes on takes it back.
-    clean(*goes_on(DISC, {"output/history/every_cycles": 7}))
+    clean(*goes_on(DISC, {"output/history/every_cycles": 7}, same_rows=False))
 
 
 def test_other_number_of_ranks():
