@@ -5,6 +5,8 @@
 #include <Harmos_Paint.hpp>
 #include <Harmos_StateExchange.hpp>
 
+#include <cmath>
+
 namespace Harmos
 {
 namespace
@@ -73,6 +75,31 @@ void moveBodies(std::vector<RigidBody> &bodies, double dt)
   }
 }
 
+/// Set the rigid velocities after a remap. In `single` the nodes that a rigid material has newly reached are stopped,
+/// or driven: what that does to the deformable materials is work and impulse of the rigid bodies.
+void holdRigidNodes(Scene const &scene, CycleState &s, PredictionSums &prediction)
+{
+  if (scene.kinematics != Kinematics::Single || s.bodies.empty())
+  {
+    setRigidVelocities(scene, s);
+    return;
+  }
+  int const materials = static_cast<int>(scene.materials.extent(0));
+  MaterialSums const before = materialSums(scene.mesh, s.pairs, s.state.record, s.state.velocity, materials);
+  setRigidVelocities(scene, s);
+  MaterialSums const after = materialSums(scene.mesh, s.pairs, s.state.record, s.state.velocity, materials);
+  std::vector<bool> rigid(materials, false);
+  for (RigidBody const &body : s.bodies)
+    rigid[body.material] = true;
+  for (int m = 0; m < materials; ++m)
+    if (!rigid[m])
+    {
+      prediction.driven_impulse +=
+          Vector2{after(m, SumMomentumX) - before(m, SumMomentumX), after(m, SumMomentumY) - before(m, SumMomentumY)};
+      prediction.driven_work += after(m, SumKineticEnergy) - before(m, SumKineticEnergy);
+    }
+}
+
 /// Work and impulse from outside, of this cycle, over all ranks; what travel limits took counts as contact loss.
 void bookExternal(Scene const &scene, CycleState const &s, std::vector<RigidBody> const &bodies_n,
                   PredictionSums const &prediction, TravelReport const &travel, double gravity_work,
@@ -118,17 +145,46 @@ RigidRows rigidRows(Scene const &scene, CycleState const &state)
   return rows;
 }
 
-/// Node positions of a body-fitted mesh follow their (only) dof node; its velocity becomes v^{n+1/2}.
-void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity,
-              View<double *[2]> const &half, double dt)
+/// Nodes of a turning rigid block: on their circles, not on the tangents along which velocities would move them.
+void turnRigidNodes(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, RigidBody const &body_n,
+                    RigidBody const &body, double dt)
 {
+  auto const position = mesh.node_position;
+  double const c = std::cos(dt * body.angular_velocity), s = std::sin(dt * body.angular_velocity);
+  Kokkos::parallel_for(
+      "Harmos::turnRigidNodes", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+        if (dof_nodes.material(dof) != body.material)
+          return;
+        int const node = dof_nodes.node(dof);
+        double const x = position(node, 0) - body_n.centre[0], y = position(node, 1) - body_n.centre[1];
+        position(node, 0) = body.centre[0] + (c * x - s * y);
+        position(node, 1) = body.centre[1] + (s * x + c * y);
+      });
+}
+
+/// Node positions of a body-fitted mesh follow their (only) dof node, those of a turning rigid block its pose; the
+/// velocity becomes v^{n+1/2}.
+void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials, std::vector<RigidBody> const &bodies_n,
+              std::vector<RigidBody> const &bodies, View<double *[2]> const &velocity, View<double *[2]> const &half,
+              double dt)
+{
+  View<int *> const turns("Harmos::turns", num_materials);
+  auto const turning = Kokkos::create_mirror_view(turns);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].angular_velocity != 0.0)
+    {
+      turning(bodies[b].material) = 1;
+      turnRigidNodes(mesh, dof_nodes, bodies_n[b], bodies[b], dt);
+    }
+  Kokkos::deep_copy(turns, turning);
   auto const position = mesh.node_position;
   Kokkos::parallel_for(
       "Harmos::moveMesh", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
         int const node = dof_nodes.node(dof);
+        bool const turned = turns(dof_nodes.material(dof)) == 1;
         for (int d = 0; d < 2; ++d)
         {
-          position(node, d) += dt * half(dof, d);
+          position(node, d) += turned ? 0.0 : dt * half(dof, d);
           velocity(dof, d) = half(dof, d);
         }
       });
@@ -233,7 +289,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   if (scene.kinematics == Kinematics::Lagrangian)
   {
     PhaseTimer timer("lagrange", times.lagrange);
-    moveMesh(scene.mesh, s.dof_nodes, s.state.velocity, work.half, dt);
+    moveMesh(scene.mesh, s.dof_nodes, static_cast<int>(scene.materials.extent(0)), bodies_n, s.bodies, s.state.velocity,
+             work.half, dt);
+    setRigidVelocities(scene, s);
     computeNodeAltitudes(mesh, work);
   }
   else
@@ -249,7 +307,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     }
     PhaseTimer timer("exchange", times.exchange);
     exchangeState(mesh, scene.kinematics, exchange, mesh.halo, s.pairs, s.dof_nodes, s.state);
-    setRigidVelocities(scene, s);
+    holdRigidNodes(scene, s, prediction);
   }
   {
     PhaseTimer timer("reconstruct", times.reconstruct);

@@ -36,7 +36,7 @@ struct ContactRow
   int cell_a, cell_b;         // local cells of the slave segment and of the surface that it faces
   int dof_a[4], dof_b[4];     // dof nodes (deformable sides)
   double weight_a[4], weight_b[4];
-  Vector2 point, normal; // of the slave's midpoint
+  Vector2 point, normal; // of the slave's point
   double gap;            // along n, >= 0 [length]
   double length;         // of the slave segment [length]
   int tied;
@@ -69,7 +69,7 @@ struct ConstraintReport
 ///
 /// Finds impulses p with v = v* + M^-1 P G^T p (P: node conditions) such that every sliding row has
 /// gap/dt + G v >= 0, p >= 0, p (gap/dt + G v) = 0, and every tied row G v = 0 in both directions; G v = n . (v_b -
-/// v_a) at the midpoint of the row's slave segment, n from a to b. The same p acts on both sides: momentum is exact.
+/// v_a) at the point of the row's slave segment, n from a to b. The same p acts on both sides: momentum is exact.
 ///
 /// \param dof_mass   num_dof_nodes [kg/m]
 /// \param velocity_n v^{n-1/2}, num_dof_nodes [m/s]: for the work of the impulses

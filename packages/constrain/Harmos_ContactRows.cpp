@@ -31,7 +31,7 @@ BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials
 namespace
 {
 
-/// Contact normal at a segment's midpoint, from the segments of the two materials in the 7 x 7 cells around it.
+/// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
 /// `target` is what the segment's ray meets, a segment of another material (no wall).
 KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
                                              SegmentBins const &bins, double shortest, int slave, int target)
@@ -44,7 +44,7 @@ KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &seg
   double omega[max_fit_samples];
   int count = 0;
   Vector2 const reach{4.0 * h, 4.0 * h};
-  bins.forEach(s.midpoint - reach, s.midpoint + reach,
+  bins.forEach(s.point - reach, s.point + reach,
                [&](int j)
                {
                  InterfaceSegment const &c = segment(j);
@@ -58,7 +58,7 @@ KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &seg
                  Vector2 const apart = c.cell_centre - s.cell_centre;
                  if (Math::max(Math::fabs(dot(apart, s.lattice[0])), Math::fabs(dot(apart, s.lattice[1]))) > 3.5)
                    return; // beyond the 7 x 7 cells
-                 Vector2 const offset = (1.0 / h) * (c.midpoint - s.midpoint);
+                 Vector2 const offset = (1.0 / h) * (c.midpoint - s.point);
                  double const weight = fitWeight(c.length / h, dot(offset, offset), hit(j).gap / h);
                  if (weight > 0.0)
                    sample[count++] = {offset, of_a ? c.normal : -c.normal, c.length / h, weight, of_a ? 0 : 1};
@@ -134,13 +134,13 @@ struct RowBuilder
     row.body_b = bodyOf(b.material);
     row.cell_a = a.cell;
     row.cell_b = b.cell;
-    row.point = a.midpoint;
+    row.point = a.point;
     row.normal = normal;
     row.gap = hit(i).gap;
     row.length = a.length;
     row.tied = b.material >= 0 && interaction(a.material, b.material) == static_cast<int>(Interaction::Tied) ? 1 : 0;
-    fillSide(a, a.midpoint, row.body_a, row.dof_a, row.weight_a);
-    fillSide(b, a.midpoint + row.gap * a.normal, row.body_b, row.dof_b, row.weight_b);
+    fillSide(a, a.point, row.body_a, row.dof_a, row.weight_a);
+    fillSide(b, a.point + row.gap * a.normal, row.body_b, row.dof_b, row.weight_b);
     return row;
   }
 };

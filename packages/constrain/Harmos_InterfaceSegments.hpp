@@ -15,6 +15,7 @@ constexpr int max_cell_segments = 64;
 struct InterfaceSegment
 {
   Vector2 midpoint;
+  Vector2 point;       // where its ray starts and its row stands: the midpoint, or a Gauss point of a free face
   Vector2 normal;      // unit; leaves the region (a wall's: points into the domain)
   Vector2 cell_centre; // mean of the cell's corners
   Vector2 lattice[2];  // d . lattice[i] counts the cells in a distance d along the cell's i-th direction [1/length]
@@ -40,7 +41,8 @@ struct InterfaceSegments
 ///
 /// An edge is split where the material beyond it changes (void counts). Contact walls are segments of material -1; a
 /// region's edge on one is exposed; other domain boundaries carry nothing; a face with neither neighbour nor boundary
-/// is a free surface (of a body-fitted block), in two segments. Cells of depth mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
+/// is a free surface (of a body-fitted block), in two segments, each with a Gauss point. Cells of depth
+/// mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
 ///
 /// Cost: one comparison of a few integers a cell, the rest follows the interfaces.
 /// Throws std::runtime_error when a cell has more than max_cell_segments.

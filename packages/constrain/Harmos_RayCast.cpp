@@ -19,8 +19,8 @@ KOKKOS_INLINE_FUNCTION bool shareNode(Mesh const &mesh, int cell, int other)
 /// The box of midpoints of segments that a ray from -overlap to one cell size can meet.
 KOKKOS_INLINE_FUNCTION void rayBox(InterfaceSegment const &s, double reach, Vector2 &low, Vector2 &high)
 {
-  Vector2 const tail = s.midpoint - deepest_overlap * s.cell_size * s.normal;
-  Vector2 const head = s.midpoint + s.cell_size * s.normal;
+  Vector2 const tail = s.point - deepest_overlap * s.cell_size * s.normal;
+  Vector2 const head = s.point + s.cell_size * s.normal;
   for (int d = 0; d < 2; ++d)
   {
     low[d] = Math::min(tail[d], head[d]) - reach;
@@ -43,7 +43,7 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *>
                {
                  InterfaceSegment const &target = segment(to);
                  double distance;
-                 if (target.material == s.material || !crossSegment(s.midpoint, s.normal, target, distance))
+                 if (target.material == s.material || !crossSegment(s.point, s.normal, target, distance))
                    return;
                  double const apart = Math::fabs(distance);
                  if (apart > nearest || (apart == nearest && hit.segment >= 0 && to > hit.segment))

@@ -13,7 +13,7 @@ constexpr double facing_cosine = 0.5;
 /// Deepest overlap of bodies on separate meshes that a ray still finds. [cell sizes]
 constexpr double deepest_overlap = 0.25;
 
-/// What the normal ray of a segment's midpoint meets first.
+/// What the normal ray of a segment's point meets first.
 struct RayHit
 {
   int segment;   // -1: nothing faces it within one cell size

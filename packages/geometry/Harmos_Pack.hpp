@@ -4,7 +4,6 @@
 
 #include <Harmos_Kokkos.hpp>
 
-#include <cstring>
 #include <utility>
 
 namespace Harmos
@@ -15,6 +14,13 @@ namespace Harmos
 // compilers have no such type; there a pack is a double.
 #if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__) && !defined(__SYCL_DEVICE_ONLY__)
 #define HARMOS_VECTOR_TYPES
+#endif
+
+/// Marks a function that a kernel over all cells seldom calls: kept out of line, it takes no registers from the rest.
+#ifdef HARMOS_VECTOR_TYPES
+#define HARMOS_RARE_FUNCTION KOKKOS_FUNCTION __attribute__((noinline, cold))
+#else
+#define HARMOS_RARE_FUNCTION KOKKOS_FUNCTION
 #endif
 
 #ifdef HARMOS_VECTOR_TYPES
@@ -33,6 +39,8 @@ constexpr int pack_width = 2;
 struct Pack
 {
   typedef double Lanes __attribute__((vector_size(pack_width * sizeof(double))));
+  typedef double Unaligned
+      __attribute__((vector_size(pack_width * sizeof(double)), aligned(sizeof(double)), may_alias));
   typedef long long Mask __attribute__((vector_size(pack_width * sizeof(long long))));
 
   Lanes lanes;
@@ -171,6 +179,31 @@ KOKKOS_FORCEINLINE_FUNCTION void transposeFrom(Pack (&p)[pack_width])
 }
 } // namespace Detail
 
+namespace Detail
+{
+#if defined(__clang__) || __GNUC__ >= 12
+template <int At, int... Lane>
+KOKKOS_FORCEINLINE_FUNCTION Pack replaced(Pack const &a, double x, std::integer_sequence<int, Lane...>)
+{
+  return Pack(__builtin_shufflevector(a.lanes, Pack(x).lanes, (Lane == At ? pack_width + Lane : Lane)...));
+}
+#else
+template <int At, int... Lane>
+KOKKOS_FORCEINLINE_FUNCTION Pack replaced(Pack a, double x, std::integer_sequence<int, Lane...>)
+{
+  a.lanes[At] = x;
+  return a;
+}
+#endif
+} // namespace Detail
+
+/// a with x in lane At; in registers: a value stored into a vector in memory would hold up the next load of it.
+template <int At>
+KOKKOS_FORCEINLINE_FUNCTION Pack withLane(Pack const &a, double x)
+{
+  return Detail::replaced<At>(a, x, std::make_integer_sequence<int, pack_width>());
+}
+
 /// p[i] lane j <-> p[j] lane i.
 KOKKOS_FORCEINLINE_FUNCTION void transpose(Pack (&p)[pack_width])
 {
@@ -179,13 +212,11 @@ KOKKOS_FORCEINLINE_FUNCTION void transpose(Pack (&p)[pack_width])
 
 KOKKOS_FORCEINLINE_FUNCTION Pack loadPack(double const *x)
 {
-  Pack p;
-  std::memcpy(&p.lanes, x, sizeof p.lanes);
-  return p;
+  return Pack(*reinterpret_cast<Pack::Unaligned const *>(x));
 }
 KOKKOS_FORCEINLINE_FUNCTION void storePack(double *x, Pack const &p)
 {
-  std::memcpy(x, &p.lanes, sizeof p.lanes);
+  *reinterpret_cast<Pack::Unaligned *>(x) = p.lanes;
 }
 
 namespace Math
@@ -196,7 +227,7 @@ KOKKOS_FORCEINLINE_FUNCTION Pack sqrt(Pack const &a)
 }
 KOKKOS_FORCEINLINE_FUNCTION Pack fabs(Pack const &a)
 {
-  return Pack(a.lanes < 0.0 ? -a.lanes : a.lanes);
+  return Pack((Pack::Lanes)((Pack::Mask)a.lanes & 0x7fffffffffffffffll));
 }
 KOKKOS_FORCEINLINE_FUNCTION Pack min(Pack const &a, Pack const &b)
 {
@@ -217,6 +248,11 @@ template <class Value>
 KOKKOS_FORCEINLINE_FUNCTION Pack packOf(Value const &value)
 {
   return value(0);
+}
+template <int At>
+KOKKOS_FORCEINLINE_FUNCTION Pack withLane(Pack const &, double x)
+{
+  return x;
 }
 KOKKOS_FORCEINLINE_FUNCTION void transpose(Pack (&)[pack_width]) {}
 KOKKOS_FORCEINLINE_FUNCTION Pack loadPack(double const *x)
@@ -262,6 +298,9 @@ KOKKOS_FORCEINLINE_FUNCTION void loadRows(Row const &row, Pack (&field)[8])
   }
 }
 
+/// One bit a lane.
+constexpr unsigned all_lanes = (1u << pack_width) - 1u;
+
 /// Its inverse, for the lanes whose bit is set.
 template <class Row>
 KOKKOS_FORCEINLINE_FUNCTION void storeRows(Pack const (&field)[8], unsigned lanes, Row const &row)
@@ -272,9 +311,13 @@ KOKKOS_FORCEINLINE_FUNCTION void storeRows(Pack const (&field)[8], unsigned lane
     for (int i = 0; i < pack_width; ++i)
       p[i] = field[f + i];
     transpose(p);
-    for (int lane = 0; lane < pack_width; ++lane)
-      if ((lanes >> lane & 1u) != 0u)
+    if (lanes == all_lanes)
+      for (int lane = 0; lane < pack_width; ++lane)
         storePack(row(lane) + f, p[lane]);
+    else
+      for (int lane = 0; lane < pack_width; ++lane)
+        if ((lanes >> lane & 1u) != 0u)
+          storePack(row(lane) + f, p[lane]);
   }
 }
 

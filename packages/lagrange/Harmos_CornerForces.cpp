@@ -5,31 +5,52 @@
 
 namespace Harmos
 {
+namespace
+{
+
+struct CornerForceFunctor
+{
+  LagrangeOptions options;
+  int num_pairs;
+  int const *material_of;
+  int const *cell_of;
+  Material const *materials;
+  RowPointer<int, 4> cell_node, dof_node;
+  RowPointer<double, 2> position, velocity;
+  RowPointer<double, num_pair_fields> record;
+  RowPointer<double, 8> corner_force;
+
+  KOKKOS_FORCEINLINE_FUNCTION void compute(int number, int const pair[pack_width], unsigned lanes) const
+  {
+    Material const material = materials[number];
+    int cell[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      cell[lane] = cell_of[pair[lane]];
+    detail::Corners<Pack> f = {};
+    if (material.rigid_body < 0)
+      f = detail::pairForces(material, options, detail::loadPackedRecord(record, pair),
+                             detail::packedCorners(cell_node, position, cell),
+                             detail::packedCorners(dof_node, velocity, pair));
+    Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
+    storeRows(row, lanes, [&](int lane) { return corner_force.row(pair[lane]); });
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int block) const
+  {
+    detail::forPackedPairs(material_of, num_pairs, block,
+                           [&](int number, int const *pair, unsigned lanes) { compute(number, pair, lanes); });
+  }
+};
+
+} // namespace
 
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work)
 {
-  auto const record = state.record;
-  auto const velocity = state.velocity;
-  auto const corner_force = work.corner_force;
-  Kokkos::parallel_for(
-      "Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)), KOKKOS_LAMBDA(int block) {
-        detail::forPackedPairs(pairs, block,
-                               [&](int number, int const *pair, unsigned lanes)
-                               {
-                                 Material const material = materials(number);
-                                 int cell[pack_width];
-                                 for (int lane = 0; lane < pack_width; ++lane)
-                                   cell[lane] = pairs.cell(pair[lane]);
-                                 detail::Corners<Pack> f = {};
-                                 if (material.rigid_body < 0)
-                                   f = detail::pairForces(material, options, detail::loadPackedRecord(record, pair),
-                                                          detail::packedCorners(mesh, cell),
-                                                          detail::packedVelocities(pairs, velocity, pair));
-                                 Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
-                                 storeRows(row, lanes, [&](int lane) { return &corner_force(pair[lane], 0); });
-                               });
-      });
+  Kokkos::parallel_for("Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)),
+                       CornerForceFunctor{options, pairs.num_pairs, pairs.material.data(), pairs.cell.data(),
+                                          materials.data(), mesh.cell_node, pairs.dof_node, mesh.node_position,
+                                          state.velocity, state.record, work.corner_force});
 }
 
 } // namespace Harmos

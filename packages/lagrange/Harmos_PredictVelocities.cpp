@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Lagrange.hpp>
 
+#include <Harmos_Pack.hpp>
+#include <Harmos_RowPointer.hpp>
 #include <detail/Harmos_JoinReducer.hpp>
 
 namespace Harmos
@@ -18,69 +20,61 @@ struct Gathered
 
 struct GatherCorners
 {
-  Mesh mesh;
-  CellMaterialPairs pairs;
-  NodeMaterialPairs dof_nodes;
-  View<Material *> materials;
-  View<double *[num_pair_fields]> record;
-  View<double *[8]> corner_force;
+  int const *first_item; // mesh.node_cell.offset
+  int const *item;
+  int const *first_pair; // pairs.offset
+  int const *material_of;
+  Material const *materials;
+  RowPointer<double, num_pair_fields> record;
+  RowPointer<double, 8> corner_force;
 
   KOKKOS_FORCEINLINE_FUNCTION void add(Gathered &sum, int pair, int corner) const
   {
+    double const *force = corner_force.row(pair) + 2 * corner;
     sum.mass += record(pair, Mass);
-    sum.force[0] += corner_force(pair, 2 * corner);
-    sum.force[1] += corner_force(pair, 2 * corner + 1);
+    sum.force[0] += force[0];
+    sum.force[1] += force[1];
   }
 
   /// The pairs of one material.
   KOKKOS_FORCEINLINE_FUNCTION Gathered ofMaterial(int node, int material) const
   {
     Gathered sum;
-    if (materials(material).rigid_body >= 0)
+    if (materials[material].rigid_body >= 0)
     {
       sum.held = true;
       return sum;
     }
-    int const last = mesh.node_cell.offset(node + 1);
-    for (int i = mesh.node_cell.offset(node); i < last; ++i)
+    int const last = first_item[node + 1];
+    for (int i = first_item[node]; i < last; ++i)
     {
-      int const item = mesh.node_cell.item(i);
-      int const end = pairs.offset((item >> 2) + 1);
-      for (int pair = pairs.offset(item >> 2); pair < end; ++pair)
-        if (pairs.material(pair) == material)
-        {
-          add(sum, pair, item & 3);
-          break;
-        }
+      int const cell = item[i] >> 2;
+      int pair = first_pair[cell];
+      int const end = first_pair[cell + 1];
+      while (pair < end && material_of[pair] != material)
+        ++pair;
+      if (pair < end)
+        add(sum, pair, item[i] & 3);
     }
     sum.mass *= 0.25;
     return sum;
   }
 
   /// All pairs around a shared node.
-  KOKKOS_INLINE_FUNCTION Gathered ofAll(int node) const
+  HARMOS_RARE_FUNCTION Gathered ofAll(int node) const
   {
     Gathered sum;
-    int const last = mesh.node_cell.offset(node + 1);
-    for (int i = mesh.node_cell.offset(node); i < last; ++i)
+    for (int i = first_item[node]; i < first_item[node + 1]; ++i)
     {
-      int const item = mesh.node_cell.item(i);
-      int const end = pairs.offset((item >> 2) + 1);
-      for (int pair = pairs.offset(item >> 2); pair < end; ++pair)
-        if (materials(pairs.material(pair)).rigid_body >= 0)
+      int const cell = item[i] >> 2;
+      for (int pair = first_pair[cell]; pair < first_pair[cell + 1]; ++pair)
+        if (materials[material_of[pair]].rigid_body >= 0)
           sum.held = true;
         else
-          add(sum, pair, item & 3);
+          add(sum, pair, item[i] & 3);
     }
     sum.mass *= 0.25;
     return sum;
-  }
-
-  KOKKOS_FORCEINLINE_FUNCTION Gathered operator()(int dof) const
-  {
-    int const material = dof_nodes.material(dof);
-    int const node = dof_nodes.node(dof);
-    return material >= 0 ? ofMaterial(node, material) : ofAll(node);
   }
 };
 
@@ -97,6 +91,67 @@ struct Sums : PredictionSums
   }
 };
 
+struct PredictFunctor
+{
+  GatherCorners gather;
+  BoundaryConditions boundary;
+  int const *node_of;
+  int const *material_of_dof;
+  int const *node_owned;
+  int const *node_condition;
+  RowPointer<double, 2> velocity, predicted;
+  double *dof_mass;
+  Vector2 gravity;
+  bool has_gravity;
+  double dt;
+
+  KOKKOS_FORCEINLINE_FUNCTION Vector2 accelerate(int dof, Gathered const &g) const
+  {
+    Vector2 const impulse = dt * (g.force + g.mass * gravity);
+    return Vector2{velocity(dof, 0), velocity(dof, 1)} + (g.mass > 0.0 ? 1.0 / g.mass : 0.0) * impulse;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void store(int dof, double mass, Vector2 const &v) const
+  {
+    dof_mass[dof] = mass;
+    predicted(dof, 0) = v[0];
+    predicted(dof, 1) = v[1];
+  }
+
+  /// Held nodes, node conditions, gravity: whatever has sums.
+  HARMOS_RARE_FUNCTION void special(int dof, Gathered const &g, Vector2 const &free, Sums &sums) const
+  {
+    int const node = node_of[dof];
+    int const condition = node_condition[node];
+    Vector2 const v{velocity(dof, 0), velocity(dof, 1)};
+    Vector2 v_star = g.held ? v : free;
+    if (condition >= 0 && !g.held)
+      v_star = boundary.condition(condition).apply(free);
+    store(dof, g.mass, v_star);
+    if (node_owned[node] == 0)
+      return;
+    Vector2 const mean = 0.5 * (v + v_star);
+    Vector2 const by_gravity = (dt * g.mass) * gravity;
+    Vector2 const by_other = g.mass * (v_star - free);
+    sums.gravity_impulse += by_gravity;
+    sums.gravity_work += dot(by_gravity, mean);
+    (g.held ? sums.driven_impulse : sums.wall_impulse) += by_other;
+    (g.held ? sums.driven_work : sums.wall_work) += dot(by_other, mean);
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int dof, Sums &sums) const
+  {
+    int const node = node_of[dof];
+    int const material = material_of_dof[dof];
+    Gathered const g = material >= 0 ? gather.ofMaterial(node, material) : gather.ofAll(node);
+    Vector2 const free = accelerate(dof, g);
+    if (has_gravity || g.held || node_condition[node] >= 0)
+      special(dof, g, free, sums);
+    else
+      store(dof, g.mass, free);
+  }
+};
+
 } // namespace
 
 PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
@@ -104,39 +159,29 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
                                  View<Material *> const &materials, LagrangeOptions const &options, double dt,
                                  LagrangeWork &work)
 {
-  GatherCorners const gather{mesh, pairs, dof_nodes, materials, state.record, work.corner_force};
-  auto const velocity = state.velocity;
-  auto const dof_mass = work.dof_mass;
-  auto const predicted = work.predicted;
+  GatherCorners const gather{mesh.node_cell.offset.data(),
+                             mesh.node_cell.item.data(),
+                             pairs.offset.data(),
+                             pairs.material.data(),
+                             materials.data(),
+                             state.record,
+                             work.corner_force};
   Vector2 const gravity = options.gravity;
-  bool const has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0;
+  PredictFunctor const predict{gather,
+                               boundary,
+                               dof_nodes.node.data(),
+                               dof_nodes.material.data(),
+                               mesh.node_owned.data(),
+                               boundary.node_index.data(),
+                               state.velocity,
+                               work.predicted,
+                               work.dof_mass.data(),
+                               gravity,
+                               gravity[0] != 0.0 || gravity[1] != 0.0,
+                               dt};
   Sums result;
-  Kokkos::parallel_reduce(
-      "Harmos::lagrange::predictVelocities", RangePolicy(0, dof_nodes.num_dof_nodes),
-      KOKKOS_LAMBDA(int dof, Sums &sums) {
-        Gathered const g = gather(dof);
-        int const node = gather.dof_nodes.node(dof);
-        Vector2 const v{velocity(dof, 0), velocity(dof, 1)};
-        Vector2 const impulse = dt * (g.force + g.mass * gravity);
-        Vector2 const free = v + (g.mass > 0.0 ? 1.0 / g.mass : 0.0) * impulse;
-        Vector2 v_star = g.held ? v : free;
-        int const condition = boundary.node_index(node);
-        if (condition >= 0 && !g.held)
-          v_star = boundary.condition(condition).apply(free);
-        dof_mass(dof) = g.mass;
-        predicted(dof, 0) = v_star[0];
-        predicted(dof, 1) = v_star[1];
-        if (!(has_gravity || g.held || condition >= 0) || !gather.mesh.node_owned(node))
-          return;
-        Vector2 const mean = 0.5 * (v + v_star);
-        Vector2 const by_gravity = (dt * g.mass) * gravity;
-        Vector2 const by_other = g.mass * (v_star - free);
-        sums.gravity_impulse += by_gravity;
-        sums.gravity_work += dot(by_gravity, mean);
-        (g.held ? sums.driven_impulse : sums.wall_impulse) += by_other;
-        (g.held ? sums.driven_work : sums.wall_work) += dot(by_other, mean);
-      },
-      detail::JoinReducer<Sums>(result));
+  Kokkos::parallel_reduce("Harmos::lagrange::predictVelocities", RangePolicy(0, dof_nodes.num_dof_nodes), predict,
+                          detail::JoinReducer<Sums>(result));
   return result;
 }
 

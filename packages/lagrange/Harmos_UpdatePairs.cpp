@@ -46,11 +46,11 @@ TimeStepLimit limitFrom(detail::LargestRate const &largest, CellMaterialPairs co
 }
 
 /// - sum_I f_I . v_mean_I, the power of the nodes on the pairs.
-KOKKOS_FORCEINLINE_FUNCTION Pack cornerPower(View<double *[8]> const &corner_force, int const pair[pack_width],
+KOKKOS_FORCEINLINE_FUNCTION Pack cornerPower(RowPointer<double, 8> const &corner_force, int const pair[pack_width],
                                              detail::Corners<Pack> const &before, detail::Corners<Pack> const &half)
 {
   Pack f[8];
-  loadRows([&](int lane) { return &corner_force(pair[lane], 0); }, f);
+  loadRows([&](int lane) { return corner_force.row(pair[lane]); }, f);
   Pack sum = 0.0;
   for (int k = 0; k < 4; ++k)
     sum += f[2 * k] * (before.x[k] + half.x[k]) + f[2 * k + 1] * (before.y[k] + half.y[k]);
@@ -67,16 +67,19 @@ KOKKOS_FORCEINLINE_FUNCTION auto isFinite(detail::PairRecord<T> const &r)
 
 struct UpdateFunctor
 {
-  Mesh mesh;
   CellMaterialPairs pairs;
-  View<Material *> materials;
+  int const *cell_of;
+  int const *material_of;
+  int const *cell_depth;
+  Material const *materials;
   LagrangeOptions options;
   detail::StepLimits limits;
   double dt;
-  View<double *[num_pair_fields]> record;
-  View<double *[2]> velocity, half;
+  RowPointer<int, 4> cell_node, dof_node;
+  RowPointer<double, 2> position, velocity, half;
+  RowPointer<double, num_pair_fields> record;
+  RowPointer<double, 8> corner_force;
   View<double *> dof_mass;
-  View<double *[8]> corner_force;
   bool all_owned;
 
   KOKKOS_INLINE_FUNCTION bool stored(unsigned lanes, int lane) const { return (lanes >> lane & 1u) != 0u; }
@@ -87,7 +90,7 @@ struct UpdateFunctor
     if (all_owned)
       return lanes;
     for (int lane = 0; lane < pack_width; ++lane)
-      if (mesh.cell_depth(cell[lane]) != 0)
+      if (cell_depth[cell[lane]] != 0)
         lanes &= ~(1u << lane);
     return lanes;
   }
@@ -109,48 +112,55 @@ struct UpdateFunctor
     }
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block, UpdateSums &sums) const
+  KOKKOS_INLINE_FUNCTION void includeRigid(detail::Corners<Pack> const &x, detail::Corners<Pack> const &v,
+                                           int const pair[pack_width], unsigned lanes, UpdateSums &sums) const
   {
-    detail::forPackedPairs(
-        pairs, block,
-        [&](int number, int const *pair, unsigned lanes)
-        {
-          Material const material = materials(number);
-          int cell[pack_width];
-          for (int lane = 0; lane < pack_width; ++lane)
-            cell[lane] = pairs.cell(pair[lane]);
-          auto const x = detail::packedCorners(mesh, cell);
-          auto const v = detail::packedVelocities(pairs, half, pair);
-          if (material.rigid_body >= 0)
-          {
-            lanes = owned(lanes, cell);
-            for (int lane = 0; lane < pack_width; ++lane)
-              if (stored(lanes, lane))
-                sums.largest.include(detail::rigidPairRate(limits, detail::laneOf(x, lane), detail::laneOf(v, lane)),
-                                     pair[lane]);
-            return;
-          }
-          Pack const power = cornerPower(corner_force, pair, detail::packedVelocities(pairs, velocity, pair), v);
-          auto const updated = detail::updatePair(material, detail::loadPackedRecord(record, pair), x, v, power, dt);
-          auto const &r = updated.record;
-          Pack const acoustic =
-              detail::acousticRate(material, options, updated.geometry, r.specific_volume, r.internal_energy);
-          Pack const fraction = packOf([&](int lane) { return record(pair[lane], VolumeFraction); });
-          Pack const row[num_pair_fields] = {r.mass,           fraction,      r.specific_volume, r.internal_energy,
-                                             r.plastic_strain, r.deviator.xx, r.deviator.yy,     r.deviator.xy};
-          storeRows(row, lanes, [&](int lane) { return &record(pair[lane], 0); });
-          lanes = owned(lanes, cell);
-          Pack const rate =
-              detail::pairRate(pairs, dof_mass, limits, pair, v, updated.geometry, acoustic, r.specific_volume);
-          if (any(rate > Pack(sums.largest.rate)))
-            for (int lane = 0; lane < pack_width; ++lane)
-              if (stored(lanes, lane))
-                sums.largest.include(laneOf(rate, lane), pair[lane]);
-          auto const good =
-              both(both(updated.corner_area > Pack(0.0), isFinite(r)), detail::inRange(material, r.specific_volume));
-          if (any(no(good)))
-            countTrouble(material, updated, pair, lanes, sums);
-        });
+    for (int lane = 0; lane < pack_width; ++lane)
+      if (stored(lanes, lane))
+        sums.largest.include(detail::rigidPairRate(limits, detail::laneOf(x, lane), detail::laneOf(v, lane)),
+                             pair[lane]);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void update(int number, int const pair[pack_width], unsigned lanes,
+                                          UpdateSums &sums) const
+  {
+    Material const material = materials[number];
+    int cell[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      cell[lane] = cell_of[pair[lane]];
+    unsigned const owned_lanes = owned(lanes, cell);
+    auto const x = detail::packedCorners(cell_node, position, cell);
+    auto const v = detail::packedCorners(dof_node, half, pair);
+    if (material.rigid_body >= 0)
+    {
+      includeRigid(x, v, pair, owned_lanes, sums);
+      return;
+    }
+    Pack const power = cornerPower(corner_force, pair, detail::packedCorners(dof_node, velocity, pair), v);
+    auto const updated = detail::updatePair(material, detail::loadPackedRecord(record, pair), x, v, power, dt);
+    auto const &r = updated.record;
+    Pack const fraction = packOf([&](int lane) { return record(pair[lane], VolumeFraction); });
+    Pack const row[num_pair_fields] = {r.mass,           fraction,      r.specific_volume, r.internal_energy,
+                                       r.plastic_strain, r.deviator.xx, r.deviator.yy,     r.deviator.xy};
+    storeRows(row, lanes, [&](int lane) { return record.row(pair[lane]); });
+
+    Pack const acoustic =
+        detail::acousticRate(material, options, updated.geometry, r.specific_volume, r.internal_energy);
+    Pack const rate = detail::pairRate(pairs, dof_mass, limits, pair, v, updated.geometry, acoustic, r.specific_volume);
+    if (any(rate > Pack(sums.largest.rate)))
+      for (int lane = 0; lane < pack_width; ++lane)
+        if (stored(owned_lanes, lane))
+          sums.largest.include(laneOf(rate, lane), pair[lane]);
+    auto const good =
+        both(both(updated.corner_area > Pack(0.0), isFinite(r)), detail::inRange(material, r.specific_volume));
+    if (any(no(good)))
+      countTrouble(material, updated, pair, owned_lanes, sums);
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int block, UpdateSums &sums) const
+  {
+    detail::forPackedPairs(material_of, pairs.num_pairs, block,
+                           [&](int number, int const *pair, unsigned lanes) { update(number, pair, lanes, sums); });
   }
 };
 
@@ -160,17 +170,22 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
                          View<Material *> const &materials, LagrangeOptions const &options, double dt,
                          LagrangeWork const &work, TimeStepLimit &next)
 {
-  UpdateFunctor const update{mesh,
-                             pairs,
-                             materials,
+  UpdateFunctor const update{pairs,
+                             pairs.cell.data(),
+                             pairs.material.data(),
+                             mesh.cell_depth.data(),
+                             materials.data(),
                              options,
                              detail::StepLimits(options),
                              dt,
-                             state.record,
+                             mesh.cell_node,
+                             pairs.dof_node,
+                             mesh.node_position,
                              state.velocity,
                              work.half,
-                             work.dof_mass,
+                             state.record,
                              work.corner_force,
+                             work.dof_mass,
                              mesh.num_owned_cells == mesh.num_cells};
   UpdateSums result;
   Kokkos::parallel_reduce("Harmos::lagrange::updatePairs", RangePolicy(0, numPacks(pairs.num_pairs)), update,

@@ -61,7 +61,8 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
     kept.window = sweptWindow(kept.chunks);
   }
   stage.velocity = recycle(kept.velocities, "velocity", in.dof_nodes.num_dof_nodes);
-  sums = sweep({in, classes, kept.window, before, stage.record, stage.kinetic, stage.velocity}, kept.chunks);
+  sums = sweep(SweptStage(in, classes, kept.window, before, stage.record, stage.kinetic, stage.velocity), kept.chunks,
+               in.mesh.num_cells);
   return stage;
 }
 

@@ -76,6 +76,8 @@ def test_single_velocity_block_sticks():
     error = momentum_error(r, 30.0)
     print(f"  single: momentum error {error:.2f}")
     assert error > 0.3
+    check("momentum ledger", r.summary["momentum_error"], 1e-12)
+    check("energy ledger", r.summary["energy_error"], 1e-10)
     clean(r)
 
 

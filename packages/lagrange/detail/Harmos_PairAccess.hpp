@@ -4,6 +4,7 @@
 
 #include <Harmos_Lagrange.hpp>
 
+#include <Harmos_RowPointer.hpp>
 #include <detail/Harmos_PairPhysics.hpp>
 
 namespace Harmos
@@ -51,40 +52,31 @@ KOKKOS_INLINE_FUNCTION PairRecord<double> loadRecord(View<double *[num_pair_fiel
 
 /// \defgroup PackedPairs The same for the pairs of a pack's lanes.
 /// \{
-KOKKOS_FORCEINLINE_FUNCTION Corners<Pack> packedCorners(Mesh const &mesh, int const cell[pack_width])
+
+/// Values at the corners: cells, their nodes and positions; or pairs, their dof nodes and velocities.
+KOKKOS_FORCEINLINE_FUNCTION Corners<Pack> packedCorners(RowPointer<int, 4> const &corner,
+                                                        RowPointer<double, 2> const &value, int const index[pack_width])
 {
+  int const *row[pack_width];
+  for (int lane = 0; lane < pack_width; ++lane)
+    row[lane] = corner.row(index[lane]);
   Corners<Pack> c;
   for (int k = 0; k < 4; ++k)
   {
-    int node[pack_width];
+    double const *at[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
-      node[lane] = mesh.cell_node(cell[lane], k);
-    c.x[k] = packOf([&](int lane) { return mesh.node_position(node[lane], 0); });
-    c.y[k] = packOf([&](int lane) { return mesh.node_position(node[lane], 1); });
+      at[lane] = value.row(row[lane][k]);
+    c.x[k] = packOf([&](int lane) { return at[lane][0]; });
+    c.y[k] = packOf([&](int lane) { return at[lane][1]; });
   }
   return c;
 }
 
-KOKKOS_FORCEINLINE_FUNCTION Corners<Pack>
-packedVelocities(CellMaterialPairs const &pairs, View<double *[2]> const &velocity, int const pair[pack_width])
-{
-  Corners<Pack> c;
-  for (int k = 0; k < 4; ++k)
-  {
-    int dof[pack_width];
-    for (int lane = 0; lane < pack_width; ++lane)
-      dof[lane] = pairs.dof_node(pair[lane], k);
-    c.x[k] = packOf([&](int lane) { return velocity(dof[lane], 0); });
-    c.y[k] = packOf([&](int lane) { return velocity(dof[lane], 1); });
-  }
-  return c;
-}
-
-KOKKOS_FORCEINLINE_FUNCTION PairRecord<Pack> loadPackedRecord(View<double *[num_pair_fields]> const &record,
+KOKKOS_FORCEINLINE_FUNCTION PairRecord<Pack> loadPackedRecord(RowPointer<double, num_pair_fields> const &record,
                                                               int const pair[pack_width])
 {
   Pack field[num_pair_fields];
-  loadRows([&](int lane) { return &record(pair[lane], 0); }, field);
+  loadRows([&](int lane) { return record.row(pair[lane]); }, field);
   PairRecord<Pack> r;
   r.mass = field[Mass];
   r.specific_volume = field[SpecificVolume];
@@ -106,31 +98,47 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<double> laneOf(Corners<Pack> const &c, int l
   return r;
 }
 
+/// The first pairs of one material among the `left` ones of a pack.
+HARMOS_RARE_FUNCTION inline unsigned selectLanes(int const *material_of, int first, unsigned left, int pair[pack_width])
+{
+  int lead = 0;
+  while ((left >> lead & 1u) == 0u)
+    ++lead;
+  unsigned lanes = 0u;
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    bool const mine = (left >> lane & 1u) != 0u && material_of[first + lane] == material_of[first + lead];
+    pair[lane] = mine ? first + lane : first + lead;
+    lanes |= (mine ? 1u : 0u) << lane;
+  }
+  return lanes;
+}
+
 /// Visit pack number `block` of pairs in parts of one material: visit(material, pair, lanes), bit l of `lanes` set
 /// where lane l is to be stored. The other lanes repeat a pair of the part, so that every lane holds something sound.
+///
+/// One call of `visit`, so that there is one compiled copy of its arithmetic: two might round differently.
 template <class Visitor>
-KOKKOS_FORCEINLINE_FUNCTION void forPackedPairs(CellMaterialPairs const &pairs, int block, Visitor const &visit)
+KOKKOS_FORCEINLINE_FUNCTION void forPackedPairs(int const *material_of, int num_pairs, int block, Visitor const &visit)
 {
   int const first = block * pack_width;
-  int const count = Math::min(pack_width, pairs.num_pairs - first);
+  int const count = Math::min(pack_width, num_pairs - first);
+  bool uniform = count == pack_width;
+  for (int lane = 1; lane < count; ++lane)
+    uniform = uniform && material_of[first + lane] == material_of[first];
   unsigned left = (1u << count) - 1u;
-  while (left != 0u)
+  do
   {
-    int lead = 0;
-    while ((left >> lead & 1u) == 0u)
-      ++lead;
-    int const material = pairs.material(first + lead);
     int pair[pack_width];
-    unsigned lanes = 0u;
-    for (int lane = 0; lane < pack_width; ++lane)
-    {
-      bool const mine = lane < count && pairs.material(first + lane) == material;
-      pair[lane] = mine ? first + lane : first + lead;
-      lanes |= (mine ? 1u : 0u) << lane;
-    }
-    visit(material, pair, lanes);
+    unsigned lanes = all_lanes;
+    if (uniform)
+      for (int lane = 0; lane < pack_width; ++lane)
+        pair[lane] = first + lane;
+    else
+      lanes = selectLanes(material_of, first, left, pair);
+    visit(material_of[pair[0]], pair, lanes);
     left &= ~lanes;
-  }
+  } while (left != 0u);
 }
 /// \}
 

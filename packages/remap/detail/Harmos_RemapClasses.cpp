@@ -168,6 +168,8 @@ void markFinalNodes(Input const &in, Classes const &classes)
         for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
           final = final && classes.interface_index(in.mesh.node_cell.item(j) / 4) < 0;
         classes.node_final(node) = final ? 1 : 0;
+        bool const free = in.conditions.node_index(node) < 0 && in.mesh.node_owned(node) != 0;
+        classes.node_plain(node) = final && free && classes.node_return(node) == SweptNode ? 1 : 0;
       });
 }
 
@@ -179,6 +181,7 @@ Classes classify(Input const &in)
   Classes classes;
   classes.node_return = scratch<int *>("nodeReturn", in.mesh.num_nodes);
   classes.node_final = scratch<int *>("nodeFinal", in.mesh.num_nodes);
+  classes.node_plain = scratch<int *>("nodePlain", in.mesh.num_nodes);
   classes.pure_material = scratch<int *>("pureMaterial", cells);
   classes.interface_index = scratch<int *>("interfaceIndex", cells);
   classes.flags = scratch<int *>("sweptFlags", cells);

@@ -40,6 +40,7 @@ struct Classes
 {
   View<int *> flags;           // num_cells, SweptBits
   View<int *> node_final;      // num_nodes: 1 where no cell around takes part in stage 2
+  View<int *> node_plain;      // num_nodes: 1 where a node is swept, final, owned and without condition
   View<int *> node_return;     // num_nodes, NodeReturn
   View<int *> pure_material;   // num_cells: material of a pure deformable cell, -1: none such, -2: no deformable at all
   View<int *> open;            // num_cells, OpenBits of its faces; extent 0: the boundaries are slip and fixed walls

@@ -55,7 +55,7 @@ struct SweptFluxFunctor
     int lead = -1;
     cells.lanes = 0u;
     for (int lane = 0; lane < count; ++lane)
-      if ((stage.classes.flags(first + lane) & all_swept_corners) != 0)
+      if ((stage.flags[first + lane] & all_swept_corners) != 0)
       {
         cells.lanes |= 1u << lane;
         lead = lead < 0 ? lane : lead;
@@ -65,15 +65,15 @@ struct SweptFluxFunctor
     for (int lane = 0; lane < pack_width; ++lane)
     {
       int const cell = first + ((cells.lanes >> lane & 1u) != 0u ? lane : lead);
-      int const flags = stage.classes.flags(cell);
+      int const flags = stage.flags[cell];
       cells.cell[lane] = cell;
-      cells.pair[lane] = stage.in.pairs.offset(cell);
+      cells.pair[lane] = stage.first_pair[cell];
       for (int k = 0; k < 4; ++k)
       {
-        bool const same = (flags & SameBeyondBit << k) != 0 && stage.in.options.order > 1;
-        int const beyond = same ? stage.in.mesh.face_neighbour(cell, k) >> 2 : cell;
+        bool const same = (flags & SameBeyondBit << k) != 0 && stage.second_order;
+        int const beyond = same ? stage.face_neighbour(cell, k) >> 2 : cell;
         cells.beyond[k][lane] = beyond;
-        cells.beyond_pair[k][lane] = stage.in.pairs.offset(beyond);
+        cells.beyond_pair[k][lane] = stage.first_pair[beyond];
       }
     }
     return true;
@@ -81,7 +81,7 @@ struct SweptFluxFunctor
 
   KOKKOS_FORCEINLINE_FUNCTION void loadGeometry(int const cell[pack_width], Pack (&row)[8]) const
   {
-    loadRows([&](int lane) { return &stage.window.cell(stage.window.row(cell[lane]), 0); }, row);
+    loadRows([&](int lane) { return stage.cellRow(cell[lane]); }, row);
   }
 
   /// Linear-exact gradient from the differences across the cell along its two directions (faces 0 -> 2 and 3 -> 1).
@@ -160,7 +160,7 @@ struct SweptFluxFunctor
       return;
     Pack row[8], centre[8];
     loadGeometry(cells.cell, row);
-    loadRows([&](int lane) { return &stage.window.face_centroid(stage.window.row(cells.cell[lane]), 0); }, centre);
+    loadRows([&](int lane) { return stage.centroidRow(cells.cell[lane]); }, centre);
     Outflow const out = outflow(row, centre);
     if (!(out.leaves[0] || out.leaves[1] || out.leaves[2] || out.leaves[3]))
       return;
@@ -223,18 +223,22 @@ struct SweptFluxFunctor
   KOKKOS_FORCEINLINE_FUNCTION void loadFields(int const pair[pack_width], int first, Pack (&q)[pack_width]) const
   {
     for (int lane = 0; lane < pack_width; ++lane)
-      q[lane] = loadPack(&stage.in.state.record(pair[lane], first));
+      q[lane] = loadPack(stage.record.row(pair[lane]) + first);
     transpose(q);
     if (stage.carries() && first <= KineticField && KineticField < first + pack_width)
-      q[KineticField - first] = packOf([&](int lane) { return stage.kinetic(pair[lane]); });
+      q[KineticField - first] = packOf([&](int lane) { return stage.kinetic[pair[lane]]; });
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void storeFluxes(FluxCells const &cells, int k, int first, Pack (&flux)[pack_width]) const
   {
     transpose(flux);
-    for (int lane = 0; lane < pack_width; ++lane)
-      if ((cells.lanes >> lane & 1u) != 0u)
-        storePack(&stage.window.flux(stage.window.row(cells.cell[lane]), k, first), flux[lane]);
+    if (cells.lanes == all_lanes)
+      for (int lane = 0; lane < pack_width; ++lane)
+        storePack(stage.fluxRow(cells.cell[lane], k) + first, flux[lane]);
+    else
+      for (int lane = 0; lane < pack_width; ++lane)
+        if ((cells.lanes >> lane & 1u) != 0u)
+          storePack(stage.fluxRow(cells.cell[lane], k) + first, flux[lane]);
   }
 };
 

@@ -51,15 +51,14 @@ struct SweptGatherFunctor
   /// False where nothing flows.
   KOKKOS_FORCEINLINE_FUNCTION bool gather(int cell, int lane, Exchanged &e) const
   {
-    SweptWindow const &window = stage.window;
-    int const row = window.row(cell);
+    double const *geometry = stage.cellRow(cell);
     FieldPack change(0.0);
-    double volume = window.cell(row, MovedVolume);
+    double volume = geometry[MovedVolume];
     e.moved_volume[lane] = volume;
     bool flows = false;
     for (int k = 0; k < 4; ++k)
     {
-      double const swept = window.cell(row, SweptVolume + k);
+      double const swept = geometry[SweptVolume + k];
       e.outflow[k][lane] = 0.0;
       if (swept == 0.0)
         continue;
@@ -67,14 +66,14 @@ struct SweptGatherFunctor
       volume -= swept;
       if (swept > 0.0)
       {
-        double const *flux = &window.flux(row, k, 0);
+        double const *flux = stage.fluxRow(cell, k);
         e.outflow[k][lane] = flux[DensityField];
         change -= FieldPack(flux);
       }
       else
       {
-        int const face = stage.in.mesh.face_neighbour(cell, k);
-        double const *flux = &window.flux(window.row(face >> 2), face & 3, 0);
+        int const face = stage.face_neighbour(cell, k);
+        double const *flux = stage.fluxRow(face >> 2, face & 3);
         e.outflow[k][lane] = -flux[DensityField];
         change += FieldPack(flux);
       }
@@ -86,27 +85,27 @@ struct SweptGatherFunctor
 
   KOKKOS_FORCEINLINE_FUNCTION void copyPair(int pair) const
   {
-    FieldPack(&stage.in.state.record(pair, 0)).store(&stage.record1(pair, 0));
+    FieldPack(stage.record.row(pair)).store(stage.record1.row(pair));
     if (stage.carries())
-      stage.kinetic1(pair) = stage.kinetic(pair);
+      stage.kinetic1[pair] = stage.kinetic[pair];
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void newRecord(int cell, int pair, int lane, Exchanged const &e, double mass1,
                                              double per_volume, double per_mass) const
   {
-    FieldPack q(&stage.in.state.record(pair, 0));
-    q.set<DensityField>(stage.window.cell(stage.window.row(cell), MovedDensity));
+    FieldPack q(stage.record.row(pair));
+    q.set<DensityField>(stage.cellRow(cell)[MovedDensity]);
     if (stage.carries())
-      q.set<KineticField>(stage.kinetic(pair));
+      q.set<KineticField>(stage.kinetic[pair]);
     FieldPack q1 =
         (fieldWeights(e.moved_volume[lane], e.mass[lane]) * q + e.change[lane]) * fieldWeights(per_volume, per_mass);
     if (stage.carries())
-      stage.kinetic1(pair) = q1[KineticField];
+      stage.kinetic1[pair] = q1[KineticField];
     q1.set<Mass>(mass1);
     q1.set<VolumeFraction>(1.0);
-    double *record = &stage.record1(pair, 0);
+    double *record = stage.record1.row(pair);
     q1.store(record);
-    returnToYield(stage.in.materials(stage.classes.pure_material(cell)), record);
+    returnToYield(stage.materials[stage.pure_material[cell]], record);
   }
 
   /// The dof nodes one edge beyond the upwind nodes of two parallel edges; the upwind nodes themselves where the
@@ -117,17 +116,17 @@ struct SweptGatherFunctor
     int const upwind_face = forward ? edges.behind : edges.ahead;
     int const up0 = edges.edge[forward ? 0 : 1];
     int const up1 = edges.edge[forward ? 2 : 3];
-    if ((flags & SameBeyondBit << upwind_face) == 0 || stage.in.options.order < 2)
+    if ((flags & SameBeyondBit << upwind_face) == 0 || !stage.second_order)
     {
-      first = stage.in.pairs.dof_node(pair, up0);
-      second = stage.in.pairs.dof_node(pair, up1);
+      first = stage.dof_node(pair, up0);
+      second = stage.dof_node(pair, up1);
       return;
     }
     // our node k of the face is the neighbour's f + 1, beyond it f + 2; our k + 1 is its f, beyond it f + 3
-    int const face = stage.in.mesh.face_neighbour(cell, upwind_face);
-    int const neighbour = stage.in.pairs.offset(face >> 2);
-    first = stage.in.pairs.dof_node(neighbour, (face + (up0 == upwind_face ? 2 : 3)) & 3);
-    second = stage.in.pairs.dof_node(neighbour, (face + (up1 == upwind_face ? 2 : 3)) & 3);
+    int const face = stage.face_neighbour(cell, upwind_face);
+    int const neighbour = stage.first_pair[face >> 2];
+    first = stage.dof_node(neighbour, (face + (up0 == upwind_face ? 2 : 3)) & 3);
+    second = stage.dof_node(neighbour, (face + (up1 == upwind_face ? 2 : 3)) & 3);
   }
 
   /// Momentum along one edge a -> b: the upwind velocity at the face between them goes with the mass.
@@ -152,7 +151,7 @@ struct SweptGatherFunctor
     int first[pack_width], second[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
       dofsBeyond(cell[lane], pair[lane], flags[lane], laneOf(forward, lane), edges, first[lane], second[lane]);
-    View<double *[2]> const &half = stage.in.half;
+    RowPointer<double, 2> const half = stage.half;
     Pack const flow = Math::fabs(G);
     Pack const part = 0.5 * (1.0 - Math::min(Pack(1.0), Pack(2.0 * flow * per_mass)));
     for (int e = 0; e < 2; ++e)
@@ -169,15 +168,14 @@ struct SweptGatherFunctor
   /// The pure cells of a pack: records and increments. Returns their kinetic energy before.
   KOKKOS_FORCEINLINE_FUNCTION double exchange(int const cell[pack_width], unsigned pure) const
   {
-    Input const &in = stage.in;
     Exchanged e;
     int pair[pack_width], flags[pack_width];
     unsigned flowing = 0u;
     for (int lane = 0; lane < pack_width; ++lane)
     {
-      pair[lane] = in.pairs.offset(cell[lane]);
-      flags[lane] = stage.classes.flags(cell[lane]);
-      e.mass[lane] = in.state.record(pair[lane], Mass);
+      pair[lane] = stage.first_pair[cell[lane]];
+      flags[lane] = stage.flags[cell[lane]];
+      e.mass[lane] = stage.record(pair[lane], Mass);
       flowing |= (gather(cell[lane], lane, e) ? 1u : 0u) << lane;
     }
     Pack const mass = packOf([&](int lane) { return e.mass[lane]; });
@@ -202,9 +200,9 @@ struct SweptGatherFunctor
     {
       int dof[pack_width];
       for (int lane = 0; lane < pack_width; ++lane)
-        dof[lane] = in.pairs.dof_node(pair[lane], k);
-      v.x[k] = packOf([&](int lane) { return in.half(dof[lane], 0); });
-      v.y[k] = packOf([&](int lane) { return in.half(dof[lane], 1); });
+        dof[lane] = stage.dof_node(pair[lane], k);
+      v.x[k] = packOf([&](int lane) { return stage.half(dof[lane], 0); });
+      v.y[k] = packOf([&](int lane) { return stage.half(dof[lane], 1); });
       gain.x[k] = 0.0;
       gain.y[k] = 0.0;
       speed2 += v.x[k] * v.x[k] + v.y[k] * v.y[k];
@@ -216,12 +214,14 @@ struct SweptGatherFunctor
       advect(cell, pair, flags, 0.25 * (out[2] - out[0]), per_mass, {{0, 3, 1, 2}, 0, 2}, v, gain);
     }
     Pack const row[8] = {gain.x[0], gain.y[0], gain.x[1], gain.y[1], gain.x[2], gain.y[2], gain.x[3], gain.y[3]};
-    storeRows(row, pure, [&](int lane) { return &stage.window.increment(stage.window.row(cell[lane]), 0); });
+    storeRows(row, pure, [&](int lane) { return stage.incrementRow(cell[lane]); });
+    for (int lane = 0; lane < pack_width; ++lane)
+      stage.mass[cell[lane] & stage.mask] = laneOf(mass1, lane);
 
     Pack const kinetic = 0.125 * mass * speed2;
     double sum = 0.0;
     for (int lane = 0; lane < pack_width; ++lane)
-      if ((pure >> lane & 1u) != 0u && in.mesh.cell_depth(cell[lane]) == 0)
+      if ((pure >> lane & 1u) != 0u && stage.cell_depth[cell[lane]] == 0)
         sum += laneOf(kinetic, lane);
     return sum;
   }
@@ -235,13 +235,13 @@ struct SweptGatherFunctor
     for (int lane = 0; lane < count; ++lane)
     {
       int const cell = first + lane;
-      if ((stage.classes.flags(cell) & PureCellBit) != 0)
+      if ((stage.flags[cell] & PureCellBit) != 0)
       {
         pure |= 1u << lane;
         lead = lead < 0 ? lane : lead;
       }
       else
-        for (int pair = stage.in.pairs.offset(cell); pair < stage.in.pairs.offset(cell + 1); ++pair)
+        for (int pair = stage.first_pair[cell]; pair < stage.first_pair[cell + 1]; ++pair)
           copyPair(pair);
     }
     if (pure == 0u)

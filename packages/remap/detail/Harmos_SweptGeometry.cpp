@@ -56,13 +56,12 @@ struct SweptGeometryFunctor
 
   KOKKOS_INLINE_FUNCTION void operator()(int block) const
   {
-    Input const &in = stage.in;
     int const first = begin + block * pack_width;
     int const count = Math::min(pack_width, end - first);
     unsigned lanes = 0u;
     int lead = -1;
     for (int lane = 0; lane < count; ++lane)
-      if ((stage.classes.flags(first + lane) & PureCellBit) != 0)
+      if ((stage.flags[first + lane] & PureCellBit) != 0)
       {
         lanes |= 1u << lane;
         lead = lead < 0 ? lane : lead;
@@ -74,8 +73,8 @@ struct SweptGeometryFunctor
     for (int lane = 0; lane < pack_width; ++lane)
     {
       cell[lane] = first + ((lanes >> lane & 1u) != 0u ? lane : lead);
-      pair[lane] = in.pairs.offset(cell[lane]);
-      flags[lane] = stage.classes.flags(cell[lane]);
+      pair[lane] = stage.first_pair[cell[lane]];
+      flags[lane] = stage.flags[cell[lane]];
       common &= flags[lane];
     }
     compute(cell, pair, flags, common, lanes);
@@ -84,21 +83,19 @@ struct SweptGeometryFunctor
   KOKKOS_FORCEINLINE_FUNCTION void compute(int const cell[pack_width], int const pair[pack_width],
                                            int const flags[pack_width], int common, unsigned lanes) const
   {
-    Input const &in = stage.in;
-    SweptWindow const &window = stage.window;
     PackedVector moved[4], middle[4], back[4];
     for (int k = 0; k < 4; ++k)
     {
       int node[pack_width], dof[pack_width];
       for (int lane = 0; lane < pack_width; ++lane)
       {
-        node[lane] = in.mesh.cell_node(cell[lane], k);
-        dof[lane] = in.pairs.dof_node(pair[lane], k);
+        node[lane] = stage.cell_node(cell[lane], k);
+        dof[lane] = stage.dof_node(pair[lane], k);
       }
-      PackedVector const x{packOf([&](int lane) { return in.mesh.node_position(node[lane], 0); }),
-                           packOf([&](int lane) { return in.mesh.node_position(node[lane], 1); })};
-      PackedVector const u{in.dt * packOf([&](int lane) { return in.half(dof[lane], 0); }),
-                           in.dt * packOf([&](int lane) { return in.half(dof[lane], 1); })};
+      PackedVector const x{packOf([&](int lane) { return stage.position(node[lane], 0); }),
+                           packOf([&](int lane) { return stage.position(node[lane], 1); })};
+      PackedVector const u{stage.dt * packOf([&](int lane) { return stage.half(dof[lane], 0); }),
+                           stage.dt * packOf([&](int lane) { return stage.half(dof[lane], 1); })};
       moved[k] = x + u;
       back[k] = bitOf(flags, common, SweptCornerBit << k) * u;
       middle[k] = moved[k] - Pack(0.5) * back[k];
@@ -112,7 +109,7 @@ struct SweptGeometryFunctor
     Pack const inverse = 1.0 / area;
     Pack const third = inverse * (1.0 / 3.0);
     PackedVector const centroid = moved[0] + ((lower * third) * (d1 + d2) + (upper * third) * (d2 + d3));
-    Pack const mass = packOf([&](int lane) { return in.state.record(pair[lane], Mass); });
+    Pack const mass = packOf([&](int lane) { return stage.record(pair[lane], Mass); });
 
     Pack row[8], centre[8];
     row[MovedVolume] = area;
@@ -128,8 +125,8 @@ struct SweptGeometryFunctor
       centre[2 * k] = c.x;
       centre[2 * k + 1] = c.y;
     }
-    storeRows(row, lanes, [&](int lane) { return &window.cell(window.row(cell[lane]), 0); });
-    storeRows(centre, lanes, [&](int lane) { return &window.face_centroid(window.row(cell[lane]), 0); });
+    storeRows(row, lanes, [&](int lane) { return stage.cellRow(cell[lane]); });
+    storeRows(centre, lanes, [&](int lane) { return stage.centroidRow(cell[lane]); });
   }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptStage.hpp>
 
+#include <Harmos_Pack.hpp>
+
 namespace Harmos
 {
 namespace RemapDetail
@@ -26,57 +28,56 @@ struct SweptNodesFunctor
     Gathered g{0.0, {0.0, 0.0}};
     for (int j = first; j < end; ++j)
     {
-      int const item = stage.in.mesh.node_cell.item(j);
-      int const row = stage.window.row(item >> 2);
-      g.four_mass += stage.record1(stage.in.pairs.offset(item >> 2), Mass);
-      g.gain[0] += stage.window.increment(row, 2 * (item & 3));
-      g.gain[1] += stage.window.increment(row, 2 * (item & 3) + 1);
+      int const row = (stage.item[j] >> 2) & stage.mask;
+      double const *increment = stage.increment.row(row) + 2 * (stage.item[j] & 3);
+      g.four_mass += stage.mass[row];
+      g.gain[0] += increment[0];
+      g.gain[1] += increment[1];
     }
     return g;
   }
 
   KOKKOS_INLINE_FUNCTION Gathered gatherAny(int first, int end, int dof) const
   {
-    Input const &in = stage.in;
     Gathered g{0.0, {0.0, 0.0}};
     for (int j = first; j < end; ++j)
     {
-      int const cell = in.mesh.node_cell.item(j) / 4;
-      int const corner = in.mesh.node_cell.item(j) % 4;
-      int const pure = stage.classes.pure_material(cell);
+      int const cell = stage.item[j] >> 2;
+      int const corner = stage.item[j] & 3;
+      int const pure = stage.pure_material[cell];
       if (pure == -2)
         continue;
-      int const row = stage.window.row(cell);
-      for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
+      double const *increment = stage.incrementRow(cell) + 2 * corner;
+      for (int pair = stage.first_pair[cell]; pair < stage.first_pair[cell + 1]; ++pair)
       {
-        if (in.pairs.dof_node(pair, corner) != dof || (pure < 0 && in.isRigid(in.pairs.material(pair))))
+        if (stage.dof_node(pair, corner) != dof || (pure < 0 && stage.isRigid(stage.pair_material[pair])))
           continue;
         g.four_mass += stage.record1(pair, Mass);
         if (pure >= 0)
-          g.gain += {stage.window.increment(row, 2 * corner), stage.window.increment(row, 2 * corner + 1)};
+          g.gain += {increment[0], increment[1]};
       }
     }
     return g;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int node, double &impulse_x, double &impulse_y, double &kinetic) const
+  /// Any node but a plain one.
+  HARMOS_RARE_FUNCTION void special(int node, double &impulse_x, double &impulse_y, double &kinetic) const
   {
-    Input const &in = stage.in;
-    int const first = in.mesh.node_cell.offset(node), end = in.mesh.node_cell.offset(node + 1);
-    bool const pure = stage.classes.node_return(node) == SweptNode;
-    bool const final = stage.classes.node_final(node) != 0;
-    bool const owned = in.mesh.node_owned(node) != 0;
-    int const condition = in.conditions.node_index(node);
-    for (int dof = in.dof_nodes.offset(node); dof < in.dof_nodes.offset(node + 1); ++dof)
+    int const first = stage.first_item[node], end = stage.first_item[node + 1];
+    bool const pure = stage.node_return[node] == SweptNode;
+    bool const final = stage.node_final[node] != 0;
+    bool const owned = stage.node_owned[node] != 0;
+    int const condition = stage.node_condition[node];
+    for (int dof = stage.first_dof[node]; dof < stage.first_dof[node + 1]; ++dof)
     {
       Gathered const g = pure ? gatherPure(first, end) : gatherAny(first, end, dof);
       double const per_mass = g.four_mass > 0.0 ? 4.0 / g.four_mass : 0.0;
-      Vector2 const half{in.half(dof, 0), in.half(dof, 1)};
+      Vector2 const half{stage.half(dof, 0), stage.half(dof, 1)};
       Vector2 v{half[0] + per_mass * g.gain[0], half[1] + per_mass * g.gain[1]};
       bool const moved = v[0] != half[0] || v[1] != half[1];
       if (final && moved && condition >= 0 && g.four_mass > 0.0)
       {
-        Vector2 const imposed = in.conditions.condition(condition).apply(v);
+        Vector2 const imposed = stage.condition[condition].apply(v);
         if (owned)
         {
           impulse_x += 0.25 * g.four_mass * (imposed[0] - v[0]);
@@ -89,6 +90,23 @@ struct SweptNodesFunctor
       stage.velocity1(dof, 0) = v[0];
       stage.velocity1(dof, 1) = v[1];
     }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int node, double &impulse_x, double &impulse_y, double &kinetic) const
+  {
+    if (stage.node_plain[node] == 0)
+    {
+      special(node, impulse_x, impulse_y, kinetic);
+      return;
+    }
+    Gathered const g = gatherPure(stage.first_item[node], stage.first_item[node + 1]);
+    int const dof = stage.first_dof[node];
+    double const per_mass = 4.0 / g.four_mass;
+    double const x = stage.half(dof, 0) + per_mass * g.gain[0];
+    double const y = stage.half(dof, 1) + per_mass * g.gain[1];
+    stage.velocity1(dof, 0) = x;
+    stage.velocity1(dof, 1) = y;
+    kinetic += 0.125 * g.four_mass * (x * x + y * y);
   }
 };
 

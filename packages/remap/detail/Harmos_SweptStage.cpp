@@ -15,7 +15,7 @@ namespace RemapDetail
 namespace
 {
 
-constexpr int least_chunk = 512;
+constexpr int least_chunk = 1024;
 
 /// Largest distance in numbers of face neighbours.
 int largestStride(Mesh const &mesh)
@@ -84,15 +84,32 @@ SweptWindow sweptWindow(SweptChunks const &chunks)
   window.mask = rows - 1;
   window.cell = scratch<double *[8]>("sweptCell", rows);
   window.face_centroid = scratch<double *[8]>("faceCentroid", rows);
-  window.flux = scratch<double *[4][8]>("flux", rows);
+  window.flux = scratch<double *[32]>("flux", rows);
   window.increment = scratch<double *[8]>("cornerIncrement", rows);
+  window.mass = scratch<double *>("sweptMass", rows);
   return window;
 }
 
-SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks)
+SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow const &window,
+                       View<double *> const &kinetic_before, View<double *[num_pair_fields]> const &record_after,
+                       View<double *> const &kinetic_after, View<double *[2]> const &velocity_after)
+    : dt(in.dt), second_order(in.options.order > 1), cell_node(in.mesh.cell_node),
+      face_neighbour(in.mesh.face_neighbour), position(in.mesh.node_position), cell_depth(in.mesh.cell_depth.data()),
+      node_owned(in.mesh.node_owned.data()), first_item(in.mesh.node_cell.offset.data()),
+      item(in.mesh.node_cell.item.data()), node_condition(in.conditions.node_index.data()),
+      condition(in.conditions.condition.data()), first_pair(in.pairs.offset.data()),
+      pair_material(in.pairs.material.data()), first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node),
+      materials(in.materials.data()), record(in.state.record), half(in.half), kinetic(kinetic_before.data()),
+      flags(classes.flags.data()), pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
+      node_final(classes.node_final.data()), node_plain(classes.node_plain.data()), mask(window.mask),
+      cell(window.cell), face_centroid(window.face_centroid), increment(window.increment), flux(window.flux),
+      mass(window.mass.data()), record1(record_after), velocity1(velocity_after), kinetic1(kinetic_after.data())
+{
+}
+
+SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, int cells)
 {
   SweptSums sums;
-  int const cells = stage.in.mesh.num_cells;
   auto const begin = [&](int t) { return std::min(t * chunks.chunk, cells); };
   int node = 0;
   for (int t = 0; t < chunks.count + 2; ++t)

@@ -2,6 +2,7 @@
 #ifndef HARMOS_SWEPT_STAGE_HPP
 #define HARMOS_SWEPT_STAGE_HPP
 
+#include <Harmos_RowPointer.hpp>
 #include <detail/Harmos_RemapClasses.hpp>
 
 #include <vector>
@@ -35,10 +36,9 @@ struct SweptWindow
   int mask = 0;
   View<double *[8]> cell;          // SweptCell
   View<double *[8]> face_centroid; // x, y of the faces' swept centroids, from the cell's
-  View<double *[4][8]> flux;       // outgoing fluxes of the faces
+  View<double *[32]> flux;         // outgoing fluxes: face * 8 + field
   View<double *[8]> increment;     // momentum gained by the corners
-
-  KOKKOS_INLINE_FUNCTION int row(int of_cell) const { return of_cell & mask; }
+  View<double *> mass;             // after
 };
 
 /// Order of stage 1: cells in chunks, so large that face neighbours are at most one chunk apart. While the geometry of
@@ -53,21 +53,50 @@ struct SweptChunks
 
 SweptChunks sweptChunks(Mesh const &mesh);
 
-/// Rows for the chunks; `carries`: fluxes hold kinetic energy.
+/// Rows for the chunks.
 SweptWindow sweptWindow(SweptChunks const &chunks);
 
-/// Input and output of stage 1.
+/// Input and output of stage 1, as the kernels see it: many short launches, which Views would have to be copied for.
 struct SweptStage
 {
-  Input in;
-  Classes classes;
-  SweptWindow window;
-  View<double *> kinetic;                  // num_pairs: kinetic energy per mass before; extent 0: not carried
-  View<double *[num_pair_fields]> record1; // num_pairs: records after stage 1, a copy where nothing flows
-  View<double *> kinetic1;                 // after; extent as `kinetic`
-  View<double *[2]> velocity1;             // dof nodes
+  SweptStage(Input const &in, Classes const &classes, SweptWindow const &window, View<double *> const &kinetic_before,
+             View<double *[num_pair_fields]> const &record_after, View<double *> const &kinetic_after,
+             View<double *[2]> const &velocity_after);
 
-  KOKKOS_INLINE_FUNCTION bool carries() const { return kinetic.extent(0) > 0; }
+  double dt;
+  bool second_order;
+
+  RowPointer<int, 4> cell_node, face_neighbour;
+  RowPointer<double, 2> position;
+  int const *cell_depth, *node_owned;
+  int const *first_item, *item; // mesh.node_cell
+  int const *node_condition;
+  NodeCondition const *condition;
+
+  int const *first_pair, *pair_material, *first_dof;
+  RowPointer<int, 4> dof_node;
+  Material const *materials;
+  RowPointer<double, num_pair_fields> record; // before
+  RowPointer<double, 2> half;
+  double const *kinetic; // kinetic energy per mass of the pairs; null: not carried
+
+  int const *flags, *pure_material, *node_return, *node_final, *node_plain; // of Classes
+
+  int mask;
+  RowPointer<double, 8> cell, face_centroid, increment; // of the window
+  RowPointer<double, 32> flux;
+  double *mass;
+
+  RowPointer<double, num_pair_fields> record1; // after; a copy where nothing flows
+  RowPointer<double, 2> velocity1;
+  double *kinetic1;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool carries() const { return kinetic != nullptr; }
+  KOKKOS_FORCEINLINE_FUNCTION double *cellRow(int c) const { return cell.row(c & mask); }
+  KOKKOS_FORCEINLINE_FUNCTION double *centroidRow(int c) const { return face_centroid.row(c & mask); }
+  KOKKOS_FORCEINLINE_FUNCTION double *incrementRow(int c) const { return increment.row(c & mask); }
+  KOKKOS_FORCEINLINE_FUNCTION double *fluxRow(int c, int face) const { return flux.row(c & mask) + 8 * face; }
+  KOKKOS_FORCEINLINE_FUNCTION bool isRigid(int material) const { return materials[material].rigid_body >= 0; }
 };
 
 /// Sums over owned cells and nodes.
@@ -101,8 +130,8 @@ double sweptGather(SweptStage const &stage, int begin, int end);
 /// imposed where the node is final (no interface cell around) and has moved.
 void sweptNodes(SweptStage const &stage, int begin, int end, SweptSums &sums);
 
-/// All of stage 1.
-SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks);
+/// All of stage 1, over `cells` cells.
+SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, int cells);
 
 } // namespace RemapDetail
 } // namespace Harmos
