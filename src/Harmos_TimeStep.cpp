@@ -274,7 +274,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   if (scene.kinematics != Kinematics::Lagrangian)
   {
     PhaseTimer timer("exchange", times.exchange);
-    exchangeDofVelocities(mesh, exchange, s.pairs, work.half);
+    exchangeDofVelocities(exchange, mesh.halo, s.pairs, work.half);
   }
   double const gravity_work = gravityWork(scene, s, dt);
 

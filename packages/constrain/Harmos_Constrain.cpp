@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Constrain.hpp>
 #include <Harmos_ConstraintSums.hpp>
+#include <Harmos_StateExchange.hpp>
 
 #include <stdexcept>
 
@@ -36,36 +37,6 @@ void addChange(ContactSystem const &system, View<double *[2]> const &change, Vie
       "Harmos::constrain::addChange", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
         half(dof_node(i), 0) += change(i, 0);
         half(dof_node(i), 1) += change(i, 1);
-      });
-}
-
-/// Halo dof nodes take their velocities from the owners of the cells around: corner velocities of pairs travel.
-void shareHalf(Mesh const &mesh, CellMaterialPairs const &pairs, Exchange const &exchange,
-               View<double *[2]> const &half)
-{
-  if (exchange.size() == 1)
-    return;
-  View<int *> offset("Harmos::constrain::half_offset", mesh.num_cells + 1);
-  Kokkos::deep_copy(offset, pairs.offset);
-  View<double **> item("Harmos::constrain::half_item", pairs.num_pairs, 8);
-  View<double **> const packed = item;
-  Kokkos::parallel_for(
-      "Harmos::constrain::packHalf", RangePolicy(0, pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
-        for (int k = 0; k < 8; ++k)
-          packed(pair, k) = half(pairs.dof_node(pair, k / 2), k % 2);
-      });
-  exchange.exchangeRows(offset, item, 3);
-  View<int *> const first = offset;
-  View<double **> const received = item;
-  // Cells that share a dof node write the same bits: each owner has all rows at its own nodes.
-  Kokkos::parallel_for(
-      "Harmos::constrain::unpackHalf", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        int const depth = mesh.cell_depth(cell);
-        if (depth < 1 || depth > 3)
-          return;
-        for (int i = 0; i < first(cell + 1) - first(cell); ++i)
-          for (int k = 0; k < 8; ++k)
-            half(pairs.dof_node(pairs.offset(cell) + i, k / 2), k % 2) = received(first(cell) + i, k);
       });
 }
 
@@ -131,7 +102,6 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   if (system.num_multipliers == 0)
   {
     writeHalf(mesh, dof_nodes, predicted, table, half);
-    shareHalf(mesh, pairs, exchange, half);
     return report;
   }
   MultiplierSolution const solution = solveMultipliers(system, rows, dt, options, exchange);
@@ -141,7 +111,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   moveFreeBodies(system, solution.body_change, bodies);
   writeHalf(mesh, dof_nodes, predicted, buildBodyTable(bodies, num_materials), half);
   addChange(system, solution.change, half);
-  shareHalf(mesh, pairs, exchange, half);
+  exchangeDofVelocities(exchange, 3, pairs, half);
   sumConstraint(system, rows, solution, mesh, dof_nodes, velocity_n, half,
                 buildBodyTable(meanBodies(bodies_n, bodies), num_materials), num_materials, exchange, report);
   return report;

@@ -133,8 +133,7 @@ void classifyCells(DofNodeBuilder const &builder, CellMaterialPairs const &pairs
         for (int pair = first; pair < end; ++pair)
           set |= setOf(p.material(pair));
         cell_set(cell) = set;
-        bool const pure = end == first + 1 && record(first, VolumeFraction) == 1.0;
-        p.cell_kind(cell) = end == first ? VoidCell : (pure ? PureCell : MixedCell);
+        p.cell_kind(cell) = cellKind(p, record, cell);
       });
 }
 

@@ -81,6 +81,15 @@ struct PairState
   View<double *[2]> velocity;             // num_dof_nodes, v^{n-1/2} at the start of a cycle [m/s]
 };
 
+/// The kind of a cell from its pairs: pure where one pair fills it.
+KOKKOS_INLINE_FUNCTION CellKind cellKind(CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,
+                                         int cell)
+{
+  int const first = pairs.offset(cell), end = pairs.offset(cell + 1);
+  bool const pure = end == first + 1 && record(first, VolumeFraction) == 1.0;
+  return end == first ? VoidCell : (pure ? PureCell : MixedCell);
+}
+
 enum class Kinematics
 {
   Xfem,

@@ -25,64 +25,180 @@ V uninitialised(char const *label, int size)
   return V(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), size);
 }
 
-View<double **> packPairs(CellMaterialPairs const &pairs, PairState const &state)
+/// Numbers of pairs of the listed cells.
+View<int *> countPairs(View<int *> const &cells, View<int *> const &pair_offset)
+{
+  auto const count = uninitialised<View<int *>>("Harmos::mesh::packet_count", static_cast<int>(cells.extent(0)));
+  Kokkos::parallel_for(
+      "Harmos::mesh::countPairs", RangePolicy(0, static_cast<int>(cells.extent(0))),
+      KOKKOS_LAMBDA(int i) { count(i) = pair_offset(cells(i) + 1) - pair_offset(cells(i)); });
+  return count;
+}
+
+/// Room for rows of the given numbers.
+PackedRows makeRows(View<int *> const &count, int width)
+{
+  int const entries = static_cast<int>(count.extent(0));
+  View<int *> const offset("Harmos::mesh::packet_offset", entries + 1);
+  int total = 0;
+  Kokkos::parallel_scan(
+      "Harmos::mesh::packetOffsets", RangePolicy(0, entries),
+      KOKKOS_LAMBDA(int i, int &sum, bool final) {
+        sum += count(i);
+        if (final)
+          offset(i + 1) = sum;
+      },
+      total);
+  auto const size = static_cast<std::size_t>(total) * width;
+  return {offset,
+          View<double *>(Kokkos::view_alloc(std::string("Harmos::mesh::packets"), Kokkos::WithoutInitializing), size),
+          width};
+}
+
+void packPairs(View<int *> const &cells, CellMaterialPairs const &pairs, PairState const &state, PackedRows const &rows)
 {
   CellMaterialPairs const p = pairs;
   PairState const s = state;
-  View<double **> packet(Kokkos::view_alloc(std::string("Harmos::mesh::pair_packet"), Kokkos::WithoutInitializing),
-                         p.num_pairs, static_cast<int>(packet_width));
+  PackedRows const r = rows;
   Kokkos::parallel_for(
-      "Harmos::mesh::packPairs", RangePolicy(0, p.num_pairs), KOKKOS_LAMBDA(int pair) {
-        packet(pair, PacketMaterial) = p.material(pair);
-        for (int f = 0; f < num_pair_fields; ++f)
-          packet(pair, PacketRecord + f) = s.record(pair, f);
-        for (int d = 0; d < 2; ++d)
-          packet(pair, PacketCentroid + d) = s.centroid(pair, d);
-        for (int k = 0; k < 4; ++k)
-          for (int d = 0; d < 2; ++d)
-            packet(pair, PacketVelocity + 2 * k + d) = s.velocity(p.dof_node(pair, k), d);
-      });
-  return packet;
-}
-
-void unpackPairs(Mesh const &mesh, View<int *> const &offset, View<double **> const &packet, CellMaterialPairs &pairs,
-                 PairState &state)
-{
-  int const num_pairs = static_cast<int>(packet.extent(0));
-  CellMaterialPairs p;
-  p.num_pairs = num_pairs;
-  p.offset = offset;
-  p.material = uninitialised<View<int *>>("Harmos::mesh::pair_material", num_pairs);
-  p.cell = uninitialised<View<int *>>("Harmos::mesh::pair_cell", num_pairs);
-  PairState s;
-  s.record = uninitialised<View<double *[num_pair_fields]>>("Harmos::mesh::record", num_pairs);
-  s.centroid = uninitialised<View<double *[2]>>("Harmos::mesh::centroid", num_pairs);
-  Kokkos::parallel_for(
-      "Harmos::mesh::unpackPairs", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        for (int pair = offset(cell); pair < offset(cell + 1); ++pair)
+      "Harmos::mesh::packPairs", RangePolicy(0, static_cast<int>(cells.extent(0))), KOKKOS_LAMBDA(int i) {
+        int const first = p.offset(cells(i));
+        for (int row = r.offset(i); row < r.offset(i + 1); ++row)
         {
-          p.cell(pair) = cell;
-          p.material(pair) = static_cast<int>(packet(pair, PacketMaterial));
+          int const pair = first + row - r.offset(i);
+          r(row, PacketMaterial) = p.material(pair);
           for (int f = 0; f < num_pair_fields; ++f)
-            s.record(pair, f) = packet(pair, PacketRecord + f);
+            r(row, PacketRecord + f) = s.record(pair, f);
           for (int d = 0; d < 2; ++d)
-            s.centroid(pair, d) = packet(pair, PacketCentroid + d);
+            r(row, PacketCentroid + d) = s.centroid(pair, d);
+          for (int k = 0; k < 4; ++k)
+            for (int d = 0; d < 2; ++d)
+              r(row, PacketVelocity + 2 * k + d) = s.velocity(p.dof_node(pair, k), d);
         }
       });
-  pairs = p;
-  state = s;
+}
+
+/// Whether the received cells hold the materials that came, so that the rows can stay where they are.
+bool sameMaterials(View<int *> const &cells, PackedRows const &rows, CellMaterialPairs const &pairs)
+{
+  CellMaterialPairs const p = pairs;
+  PackedRows const r = rows;
+  int different = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::mesh::sameMaterials", RangePolicy(0, static_cast<int>(cells.extent(0))),
+      KOKKOS_LAMBDA(int i, int &sum) {
+        int const first = p.offset(cells(i));
+        int const count = r.offset(i + 1) - r.offset(i);
+        bool same = p.offset(cells(i) + 1) - first == count;
+        for (int k = 0; same && k < count; ++k)
+          same = static_cast<int>(r(r.offset(i) + k, PacketMaterial)) == p.material(first + k);
+        sum += same ? 0 : 1;
+      },
+      different);
+  return different == 0;
+}
+
+/// Write records, centroids, kinds and the velocities of the corners. Pairs that share a dof node carry the same bits.
+void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMaterialPairs const &pairs,
+                    PairState const &state)
+{
+  CellMaterialPairs const p = pairs;
+  PairState const s = state;
+  PackedRows const r = rows;
+  Kokkos::parallel_for(
+      "Harmos::mesh::overwritePairs", RangePolicy(0, static_cast<int>(cells.extent(0))), KOKKOS_LAMBDA(int i) {
+        int const cell = cells(i);
+        for (int row = r.offset(i); row < r.offset(i + 1); ++row)
+        {
+          int const pair = p.offset(cell) + row - r.offset(i);
+          for (int f = 0; f < num_pair_fields; ++f)
+            s.record(pair, f) = r(row, PacketRecord + f);
+          for (int d = 0; d < 2; ++d)
+            s.centroid(pair, d) = r(row, PacketCentroid + d);
+          for (int k = 0; k < 4; ++k)
+            for (int d = 0; d < 2; ++d)
+              s.velocity(p.dof_node(pair, k), d) = r(row, PacketVelocity + 2 * k + d);
+        }
+        p.cell_kind(cell) = cellKind(p, s.record, cell);
+      });
+}
+
+/// Rows over all local cells: owned cells keep their pairs, received ones have what came, deeper ones nothing.
+View<int *> joinOffsets(Mesh const &mesh, View<int *> const &old_offset, View<int *> const &cells,
+                        PackedRows const &rows)
+{
+  View<int *> const count("Harmos::mesh::pair_count", mesh.num_cells);
+  View<int *> const offset("Harmos::mesh::pair_offset", mesh.num_cells + 1);
+  auto const depth = mesh.cell_depth;
+  auto const received = rows.offset;
+  Kokkos::parallel_for(
+      "Harmos::mesh::receivedCounts", RangePolicy(0, static_cast<int>(cells.extent(0))),
+      KOKKOS_LAMBDA(int i) { count(cells(i)) = received(i + 1) - received(i); });
+  Kokkos::parallel_scan(
+      "Harmos::mesh::joinOffsets", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int c, int &sum, bool final) {
+        sum += depth(c) == 0 ? old_offset(c + 1) - old_offset(c) : count(c);
+        if (final)
+          offset(c + 1) = sum;
+      });
+  return offset;
+}
+
+/// Where new pairs come from: the old pair of an owned cell, or -1 - the received row.
+View<int *> listSources(Mesh const &mesh, View<int *> const &old_offset, View<int *> const &cells,
+                        PackedRows const &rows, CellMaterialPairs const &pairs)
+{
+  CellMaterialPairs const p = pairs;
+  auto const depth = mesh.cell_depth;
+  auto const received = rows.offset;
+  auto const source = uninitialised<View<int *>>("Harmos::mesh::pair_source", p.num_pairs);
+  Kokkos::parallel_for(
+      "Harmos::mesh::ownedSources", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int c) {
+        for (int pair = p.offset(c); pair < p.offset(c + 1); ++pair)
+        {
+          p.cell(pair) = c;
+          if (depth(c) == 0)
+            source(pair) = old_offset(c) + pair - p.offset(c);
+        }
+      });
+  Kokkos::parallel_for(
+      "Harmos::mesh::receivedSources", RangePolicy(0, static_cast<int>(cells.extent(0))), KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < received(i + 1) - received(i); ++k)
+          source(p.offset(cells(i)) + k) = -1 - (received(i) + k);
+      });
+  return source;
+}
+
+void gatherPairs(CellMaterialPairs const &old_pairs, PairState const &old_state, PackedRows const &rows,
+                 View<int *> const &source, CellMaterialPairs const &pairs, PairState const &state)
+{
+  CellMaterialPairs const p = pairs, q = old_pairs;
+  PairState const s = state, t = old_state;
+  PackedRows const value = rows;
+  Kokkos::parallel_for(
+      "Harmos::mesh::gatherPairs", RangePolicy(0, p.num_pairs), KOKKOS_LAMBDA(int pair) {
+        int const from = source(pair);
+        int const row = -1 - from;
+        p.material(pair) = from >= 0 ? q.material(from) : static_cast<int>(value(row, PacketMaterial));
+        for (int f = 0; f < num_pair_fields; ++f)
+          s.record(pair, f) = from >= 0 ? t.record(from, f) : value(row, PacketRecord + f);
+        for (int d = 0; d < 2; ++d)
+          s.centroid(pair, d) = from >= 0 ? t.centroid(from, d) : value(row, PacketCentroid + d);
+      });
 }
 
 /// Each dof node takes the corner velocity of the first pair around it that it moves.
-View<double *[2]> velocityFromCorners(Mesh const &mesh, View<double **> const &packet, CellMaterialPairs const &pairs,
-                                      NodeMaterialPairs const &dof_nodes)
+View<double *[2]> gatherVelocities(Mesh const &mesh, CellMaterialPairs const &old_pairs,
+                                   View<double *[2]> const &old_velocity, PackedRows const &rows,
+                                   View<int *> const &source, CellMaterialPairs const &pairs,
+                                   NodeMaterialPairs const &dof_nodes)
 {
   Rows const node_cell = mesh.node_cell;
-  CellMaterialPairs const p = pairs;
+  CellMaterialPairs const p = pairs, q = old_pairs;
   NodeMaterialPairs const n = dof_nodes;
+  PackedRows const value = rows;
   auto const velocity = uninitialised<View<double *[2]>>("Harmos::mesh::velocity", n.num_dof_nodes);
   Kokkos::parallel_for(
-      "Harmos::mesh::velocityFromCorners", RangePolicy(0, n.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+      "Harmos::mesh::gatherVelocities", RangePolicy(0, n.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
         int const node = n.node(dof);
         for (int i = node_cell.offset(node); i < node_cell.offset(node + 1); ++i)
         {
@@ -91,13 +207,35 @@ View<double *[2]> velocityFromCorners(Mesh const &mesh, View<double **> const &p
           for (int pair = p.offset(cell); pair < p.offset(cell + 1); ++pair)
             if (p.dof_node(pair, corner) == dof)
             {
-              velocity(dof, 0) = packet(pair, PacketVelocity + 2 * corner);
-              velocity(dof, 1) = packet(pair, PacketVelocity + 2 * corner + 1);
+              int const from = source(pair);
+              for (int d = 0; d < 2; ++d)
+                velocity(dof, d) = from >= 0 ? old_velocity(q.dof_node(from, corner), d)
+                                             : value(-1 - from, PacketVelocity + 2 * corner + d);
               return;
             }
         }
       });
   return velocity;
+}
+
+/// Pairs, dof nodes and state in new views, numbered anew.
+void rebuildPairs(Mesh const &mesh, Kinematics kinematics, View<int *> const &cells, PackedRows const &rows,
+                  CellMaterialPairs &pairs, NodeMaterialPairs &dof_nodes, PairState &state)
+{
+  CellMaterialPairs p;
+  p.offset = joinOffsets(mesh, pairs.offset, cells, rows);
+  Kokkos::deep_copy(p.num_pairs, Kokkos::subview(p.offset, mesh.num_cells));
+  p.material = uninitialised<View<int *>>("Harmos::mesh::pair_material", p.num_pairs);
+  p.cell = uninitialised<View<int *>>("Harmos::mesh::pair_cell", p.num_pairs);
+  PairState s;
+  s.record = uninitialised<View<double *[num_pair_fields]>>("Harmos::mesh::record", p.num_pairs);
+  s.centroid = uninitialised<View<double *[2]>>("Harmos::mesh::centroid", p.num_pairs);
+  View<int *> const source = listSources(mesh, pairs.offset, cells, rows, p);
+  gatherPairs(pairs, state, rows, source, p, s);
+  dof_nodes = buildDofNodes(mesh, kinematics, s.record, p);
+  s.velocity = gatherVelocities(mesh, pairs, state.velocity, rows, source, p, dof_nodes);
+  pairs = p;
+  state = s;
 }
 
 } // namespace
@@ -108,35 +246,46 @@ void exchangeState(Mesh const &mesh, Kinematics kinematics, Exchange const &exch
   if (exchange.size() == 1)
     return;
   ScopedRegion const region("Harmos::mesh::exchangeState");
-  View<int *> offset = pairs.offset;
-  View<double **> packet = packPairs(pairs, state);
-  exchange.exchangeRows(offset, packet, depth);
-  unpackPairs(mesh, offset, packet, pairs, state);
-  dof_nodes = buildDofNodes(mesh, kinematics, state.record, pairs);
-  state.velocity = velocityFromCorners(mesh, packet, pairs, dof_nodes);
+  HaloCells const halo = exchange.haloCells(depth);
+  View<int *> const sent_count = countPairs(halo.sent, pairs.offset);
+  auto const received_count =
+      uninitialised<View<int *>>("Harmos::mesh::received_count", static_cast<int>(halo.received.extent(0)));
+  exchange.exchangeCounts(sent_count, received_count, depth);
+  PackedRows const sent = makeRows(sent_count, packet_width);
+  PackedRows const received = makeRows(received_count, packet_width);
+  packPairs(halo.sent, pairs, state, sent);
+  exchange.exchangePacked(sent, received, depth);
+  if (depth == mesh.halo && sameMaterials(halo.received, received, pairs))
+    overwritePairs(halo.received, received, pairs, state);
+  else
+    rebuildPairs(mesh, kinematics, halo.received, received, pairs, dof_nodes, state);
 }
 
-void exchangeDofVelocities(Mesh const &mesh, Exchange const &exchange, CellMaterialPairs const &pairs,
+void exchangeDofVelocities(Exchange const &exchange, int depth, CellMaterialPairs const &pairs,
                            View<double *[2]> const &velocity)
 {
   if (exchange.size() == 1)
     return;
   ScopedRegion const region("Harmos::mesh::exchangeDofVelocities");
+  HaloCells const halo = exchange.haloCells(depth);
+  PackedRows const sent = makeRows(countPairs(halo.sent, pairs.offset), 8);
+  PackedRows const received = makeRows(countPairs(halo.received, pairs.offset), 8);
   CellMaterialPairs const p = pairs;
-  View<double **> const item("Harmos::mesh::corner_velocity", p.num_pairs, 8);
   Kokkos::parallel_for(
-      "Harmos::mesh::packCorners", RangePolicy(0, p.num_pairs), KOKKOS_LAMBDA(int pair) {
-        for (int i = 0; i < 8; ++i)
-          item(pair, i) = velocity(p.dof_node(pair, i / 2), i % 2);
+      "Harmos::mesh::packCorners", RangePolicy(0, static_cast<int>(halo.sent.extent(0))), KOKKOS_LAMBDA(int i) {
+        int const first = p.offset(halo.sent(i)) - sent.offset(i);
+        for (int row = sent.offset(i); row < sent.offset(i + 1); ++row)
+          for (int k = 0; k < 8; ++k)
+            sent(row, k) = velocity(p.dof_node(first + row, k / 2), k % 2);
       });
-  exchange.updateRows(p.offset, item, mesh.halo);
-  // Pairs that share a dof node write the same bits. Owned cells keep what they have.
+  exchange.exchangePacked(sent, received, depth);
+  // Pairs that share a dof node write the same bits.
   Kokkos::parallel_for(
-      "Harmos::mesh::unpackCorners", RangePolicy(0, p.num_pairs), KOKKOS_LAMBDA(int pair) {
-        if (mesh.cell_depth(p.cell(pair)) == 0)
-          return;
-        for (int i = 0; i < 8; ++i)
-          velocity(p.dof_node(pair, i / 2), i % 2) = item(pair, i);
+      "Harmos::mesh::unpackCorners", RangePolicy(0, static_cast<int>(halo.received.extent(0))), KOKKOS_LAMBDA(int i) {
+        int const first = p.offset(halo.received(i)) - received.offset(i);
+        for (int row = received.offset(i); row < received.offset(i + 1); ++row)
+          for (int k = 0; k < 8; ++k)
+            velocity(p.dof_node(first + row, k / 2), k % 2) = received(row, k);
       });
 }
 

@@ -223,6 +223,22 @@ void copyOwnedRows(Mesh const &mesh, View<int *> const &from_offset, View<double
       });
 }
 
+void checkEntries(CellList const &list, std::size_t entries)
+{
+  if (entries != static_cast<std::size_t>(list.size()))
+    throw std::runtime_error("exchange: " + std::to_string(entries) + " entries for a list of " +
+                             std::to_string(list.size()) + " cells");
+}
+
+/// Numbers that travel for each entry of a list.
+void setPackets(CellList &list, PackedRows const &rows)
+{
+  checkEntries(list, rows.offset.extent(0) - 1);
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.offset);
+  for (int i = 0; i < list.size(); ++i)
+    list.packets[i] = static_cast<std::size_t>(offset(i + 1) - offset(i)) * rows.width;
+}
+
 int lastOffset(View<int *> const &offset)
 {
   int last = 0;
@@ -239,18 +255,23 @@ struct TpetraExchange::Implementation
   std::map<int, std::unique_ptr<Pattern>> patterns; // by depth
   std::vector<double> gathered;
 
-  Pattern &pattern(View<int *> const &offset, int depth)
+  Pattern &pattern(int depth)
   {
     if (depth < 0 || depth > mesh.halo)
       throw std::runtime_error("exchange: depth " + std::to_string(depth) + " is not in [0, " +
                                std::to_string(mesh.halo) + "], the mesh's halo");
-    if (offset.extent(0) != static_cast<std::size_t>(mesh.num_cells) + 1)
-      throw std::runtime_error("exchange: " + std::to_string(offset.extent(0)) + " offsets for " +
-                               std::to_string(mesh.num_cells) + " local cells");
     std::unique_ptr<Pattern> &found = patterns[depth];
     if (!found)
       found = makePattern(comm, mesh, depth);
     return *found;
+  }
+
+  Pattern &pattern(View<int *> const &offset, int depth)
+  {
+    if (offset.extent(0) != static_cast<std::size_t>(mesh.num_cells) + 1)
+      throw std::runtime_error("exchange: " + std::to_string(offset.extent(0)) + " offsets for " +
+                               std::to_string(mesh.num_cells) + " local cells");
+    return pattern(depth);
   }
 };
 
@@ -309,6 +330,44 @@ void TpetraExchange::sum(long long *values, int count) const
     return;
   std::vector<long long> const mine(values, values + count);
   Teuchos::reduceAll(*implementation_->comm, Teuchos::REDUCE_SUM, count, mine.data(), values);
+}
+
+HaloCells TpetraExchange::haloCells(int depth) const
+{
+  if (size() == 1)
+    return {};
+  Pattern const &pattern = implementation_->pattern(depth);
+  return {pattern.sent.cell, pattern.received.cell};
+}
+
+void TpetraExchange::exchangeCounts(View<int *> const &sent, View<int *> const &received, int depth) const
+{
+  if (size() == 1)
+    return;
+  Pattern &pattern = implementation_->pattern(depth);
+  checkEntries(pattern.sent, sent.extent(0));
+  checkEntries(pattern.received, received.extent(0));
+  auto const sent_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sent);
+  auto const received_host = Kokkos::create_mirror_view(received);
+  pattern.import->getDistributor().doPostsAndWaits(sent_host, 1, received_host);
+  Kokkos::deep_copy(received, received_host);
+}
+
+void TpetraExchange::exchangePacked(PackedRows const &sent, PackedRows const &received, int depth) const
+{
+  if (size() == 1)
+    return;
+  ScopedRegion const region("Harmos::parallel::exchangePacked");
+  Pattern &pattern = implementation_->pattern(depth);
+  setPackets(pattern.sent, sent);
+  setPackets(pattern.received, received);
+  auto const sent_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sent.value);
+  auto const received_host = Kokkos::create_mirror_view(received.value);
+  using Counts = Teuchos::ArrayView<std::size_t const>;
+  pattern.import->getDistributor().doPostsAndWaits(sent_host, Counts(pattern.sent.packets.data(), pattern.sent.size()),
+                                                   received_host,
+                                                   Counts(pattern.received.packets.data(), pattern.received.size()));
+  Kokkos::deep_copy(received.value, received_host);
 }
 
 void TpetraExchange::exchangeRows(View<int *> &offset, View<double **> &item, int depth) const

@@ -35,6 +35,10 @@ public:
   void sum(double *values, int count) const override;
   void sum(long long *values, int count) const override;
 
+  HaloCells haloCells(int depth) const override;
+  void exchangeCounts(View<int *> const &sent, View<int *> const &received, int depth) const override;
+  void exchangePacked(PackedRows const &sent, PackedRows const &received, int depth) const override;
+
   /// New views are allocated for the result. \throw std::runtime_error when depth exceeds the mesh's halo, or where
   /// the offsets are not those of the mesh's cells.
   void exchangeRows(View<int *> &offset, View<double **> &item, int depth) const override;

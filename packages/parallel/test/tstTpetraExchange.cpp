@@ -192,7 +192,7 @@ TEST(TpetraExchange, oneRank_keepsTheViews)
 {
   Setting const s(false);
   if (s.comm->getSize() != 1)
-    GTEST_SKIP() << "for one rank";
+    GTEST_SKIP() << "for one rank: only there nothing is exchanged and the views stay the same";
   TpetraExchange const exchange(s.comm, s.mesh);
   View<int *> offset;
   View<double **> item;
@@ -209,7 +209,7 @@ TEST(TpetraExchange, depthBeyondTheHalo_isRefused)
 {
   Setting const s(false);
   if (s.comm->getSize() == 1)
-    GTEST_SKIP() << "for two ranks or more";
+    GTEST_SKIP() << "for two ranks or more: one rank exchanges nothing and refuses no depth";
   TpetraExchange const exchange(s.comm, s.mesh);
   View<int *> offset("offset", s.mesh.num_cells + 1);
   View<double **> item("item", 0, 1);
