@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_Setup.hpp"
 
+#include "Harmos_PrescribedCycle.hpp"
+
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_Paint.hpp>
 
@@ -157,20 +159,14 @@ void addRigidBodies(Deck const &deck, Scene &scene)
   }
 }
 
-Body paintedBody(BodySpec const &spec)
+/// With a prescribed field: the largest step with which end_time is a multiple of it and no node moves farther than
+/// `courant` of the shortest cell side.
+double equalStep(Deck const &deck, double max_dt)
 {
-  Body body;
-  body.shape = makeShape(spec.shape);
-  body.material = spec.field;
-  body.velocity = spec.velocity;
-  body.angular_velocity = spec.angular_velocity;
-  body.rotation_centre = spec.shape.reference();
-  body.density = spec.density;
-  body.specific_volume = 1.0 / spec.density;
-  body.internal_energy = spec.internal_energy;
-  body.cut_from_earlier = spec.cut;
-  body.name = spec.name;
-  return body;
+  double const speed = deck.prescribed.largestSpeed({deck.x.from, deck.y.from}, {deck.x.to, deck.y.to});
+  double const shortest = std::min(deck.x.smallestCell(), deck.y.smallestCell());
+  double const largest = std::min(max_dt, speed > 0.0 ? deck.lagrange.courant * shortest / speed : deck.run.end_time);
+  return deck.run.end_time / std::ceil(deck.run.end_time / largest * (1.0 - 1e-12));
 }
 
 /// One pair a cell, filled; velocities of the body at the nodes.
@@ -259,6 +255,22 @@ Shape makeShape(ShapeSpec const &spec)
   throw std::logic_error("a shape of unknown kind");
 }
 
+Body paintedBody(BodySpec const &spec)
+{
+  Body body;
+  body.shape = makeShape(spec.shape);
+  body.material = spec.field;
+  body.velocity = spec.velocity;
+  body.angular_velocity = spec.angular_velocity;
+  body.rotation_centre = spec.shape.reference();
+  body.density = spec.density;
+  body.specific_volume = 1.0 / spec.density;
+  body.internal_energy = spec.internal_energy;
+  body.cut_from_earlier = spec.cut;
+  body.name = spec.name;
+  return body;
+}
+
 Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange const &exchange)
 {
   Scene scene;
@@ -298,10 +310,13 @@ Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange c
       interaction(a, b) = static_cast<int>(a < f && b < f ? deck.interaction[a * f + b] : Interaction::Sliding);
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
   scene.remap = deck.remap;
+  scene.prescribed = deck.prescribed;
   if (deck.kinematics == Kinematics::Lagrangian)
     scene.subzone_fraction = subzoneFractions(mesh);
   if (deck.run.max_dt > 0.0)
     scene.max_dt = deck.run.max_dt;
+  if (deck.prescribed.kind != FieldKind::None)
+    scene.max_dt = equalStep(deck, scene.max_dt);
   return scene;
 }
 
@@ -324,6 +339,8 @@ CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const
     s.state.velocity = paintedVelocity(scene.mesh, bodies, painting, s.dof_nodes);
   }
   setRigidVelocities(scene, s);
+  if (scene.prescribed.kind != FieldKind::None)
+    setPrescribedVelocities(scene, s);
   return s;
 }
 
@@ -333,7 +350,9 @@ void setFirstTimeStep(Deck const &deck, Scene const &scene, CycleState &s)
   computeNodeAltitudes(scene.mesh, s.work);
   computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
   s.limit = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
-  s.dt = std::min(scene.exchange->min(s.limit.dt), scene.max_dt);
+  s.dt = scene.max_dt;
+  if (scene.prescribed.kind == FieldKind::None)
+    s.dt = std::min(scene.exchange->min(s.limit.dt), s.dt);
   if (deck.run.initial_dt > 0.0)
     s.dt = std::min(s.dt, deck.run.initial_dt);
 }

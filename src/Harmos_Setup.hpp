@@ -6,6 +6,7 @@
 
 #include <Harmos_Deck.hpp>
 #include <Harmos_HostMesh.hpp>
+#include <Harmos_Paint.hpp>
 
 namespace Harmos
 {
@@ -20,6 +21,9 @@ DeckMesh makeMesh(Deck const &deck);
 
 /// The outline of a body.
 Shape makeShape(ShapeSpec const &spec);
+
+/// A body as it is painted at time zero.
+Body paintedBody(BodySpec const &spec);
 
 /// Everything that does not change: `mesh` and `exchange` are given, the rest comes from the deck.
 Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Exchange const &exchange);

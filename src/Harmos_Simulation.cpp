@@ -3,6 +3,7 @@
 
 #include "Harmos_Interrupt.hpp"
 #include "Harmos_Run.hpp"
+#include "Harmos_ShapeErrors.hpp"
 #include "Harmos_Version.hpp"
 
 #include <Harmos_DeckSchema.hpp>
@@ -48,6 +49,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.unconverged_cycles += report.constraint.converged ? 0.0 : 1.0;
   l.light_nodes += static_cast<double>(report.light_nodes);
   l.repeats += report.repeats;
+  l.restored_volume += report.restored_volume;
 }
 
 std::string placeOf(Run const &run, int cell, int material)
@@ -94,9 +96,12 @@ void checkCycle(Run const &run, CycleReport const &report)
   else if (u.not_a_number > 0)
     cause = "a value is not a number, or a specific volume not positive: " + placeOf(run, u.cell, u.material);
   else if (report.remap.failures > 0)
-    cause = "the overlays of a donor do not add up to it: " + placeOf(run, report.remap.first_failed_cell, -1);
+    cause = (report.remap.first_failed_material < 0 ? "more materials come into a cell than it can hold: "
+                                                    : "the overlays of a donor do not add up to it: ") +
+            placeOf(run, report.remap.first_failed_cell, report.remap.first_failed_material);
   else if (report.reconstruction.failures > 0)
-    cause = "an interface could not be placed: " + placeOf(run, report.reconstruction.first_failed_cell, -1);
+    cause = "an interface could not be placed: " +
+            placeOf(run, report.reconstruction.first_failed_cell, report.reconstruction.first_failed_material);
   if (!cause.empty())
     cause = "cycle " + std::to_string(run.state.cycle) + ": " + cause;
   throwTogether(run, cause);
@@ -130,6 +135,11 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.momentum_error = run.ledger.largest_momentum_error;
   s.energy_error = run.ledger.largest_energy_error;
   s.unconverged_cycles = std::llround(run.ledger.unconverged_cycles);
+  if (run.scene.prescribed.kind != FieldKind::None)
+  {
+    s.shape_errors = shapeErrors(run.deck, run.scene, run.state);
+    s.shape_errors.emplace_back("restored_volume", run.ledger.restored_volume);
+  }
   s.warnings = run.warnings;
   s.versions = versions();
   s.deck_json = run.deck.json;
@@ -234,6 +244,13 @@ ExitStatus loop(Run &run, RunOutput &output)
 }
 
 } // namespace
+
+void checkScene(Deck const &deck, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
+{
+  RunOptions const options;
+  Run run(deck, options, comm);
+  setUp(run);
+}
 
 ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
 {

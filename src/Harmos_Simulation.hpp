@@ -28,6 +28,10 @@ enum ExitStatus : int
   Interrupted = 4
 };
 
+/// Everything that a run does before its first cycle: mesh, bodies painted into it, points placed. Writes nothing.
+/// \throw DeckError for what is wrong with the input.
+void checkScene(Deck const &deck, Teuchos::RCP<Teuchos::Comm<int> const> const &comm);
+
 /// Run a deck to its end: state, cycles, output, checkpoints, summary.
 ///
 /// \return Completed, FailedRun (cause printed, last good checkpoint kept) or Interrupted (checkpoint written).

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_TimeStep.hpp"
 
+#include "Harmos_PhaseTimer.hpp"
+#include "Harmos_PrescribedCycle.hpp"
+
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Paint.hpp>
 #include <Harmos_StateExchange.hpp>
@@ -14,25 +17,6 @@ namespace
 
 constexpr int most_repeats = 8;
 constexpr double largest_growth = 1.05; // of dt from one cycle to the next
-
-/// Adds the life of a scope to a phase's seconds.
-class PhaseTimer
-{
-public:
-  PhaseTimer(char const *name, double &seconds) : region_(std::string("Harmos::") + name), seconds_(seconds) {}
-  ~PhaseTimer()
-  {
-    ExecutionSpace().fence();
-    seconds_ += timer_.seconds();
-  }
-  PhaseTimer(PhaseTimer const &) = delete;
-  PhaseTimer &operator=(PhaseTimer const &) = delete;
-
-private:
-  ScopedRegion region_;
-  Kokkos::Timer timer_;
-  double &seconds_;
-};
 
 /// Work of gravity with v_mean = (v^{n-1/2} + v^{n+1/2})/2 on deformable bodies, owned nodes. [J/m]
 double gravityWork(Scene const &scene, CycleState const &s, double dt)
@@ -123,11 +107,19 @@ void bookExternal(Scene const &scene, CycleState const &s, std::vector<RigidBody
     }
 }
 
-RigidRows rigidRows(Scene const &scene, CycleState const &state)
+bool samePoses(std::vector<RigidBody> const &a, std::vector<RigidBody> const &b)
 {
-  RigidRows rows;
-  if (state.bodies.empty())
-    return rows;
+  bool same = a.size() == b.size();
+  for (std::size_t i = 0; i < a.size() && same; ++i)
+    same = a[i].centre[0] == b[i].centre[0] && a[i].centre[1] == b[i].centre[1] && a[i].angle == b[i].angle;
+  return same;
+}
+
+/// What the rigid bodies fill at their new poses; where none has moved, the rows of the last cycle.
+RigidRows const &rigidRows(Scene const &scene, CycleState &state)
+{
+  if (state.rigid_rows.offset.extent(0) > 0 && samePoses(state.bodies, state.rigid_pose))
+    return state.rigid_rows;
   std::vector<Shape> shapes;
   std::vector<int> materials;
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
@@ -137,12 +129,13 @@ RigidRows rigidRows(Scene const &scene, CycleState const &state)
     shapes.push_back(scene.rigid_shape[b].moved(body.centre - start.centre, body.angle - start.angle));
     materials.push_back(body.material);
   }
-  PaintedRows const painted = rigidVolumes(scene.mesh, shapes, materials);
-  rows.offset = painted.offset;
-  rows.material = painted.material;
-  rows.volume_fraction = painted.volume_fraction;
-  rows.centroid = painted.centroid;
-  return rows;
+  if (!shapes.empty())
+  {
+    PaintedRows const painted = rigidVolumes(scene.mesh, shapes, materials);
+    state.rigid_rows = {painted.offset, painted.material, painted.volume_fraction, painted.centroid};
+    state.rigid_pose = state.bodies;
+  }
+  return state.rigid_rows;
 }
 
 /// Nodes of a turning rigid block: on their circles, not on the tangents along which velocities would move them.
@@ -229,10 +222,13 @@ void reconstructState(Scene const &scene, CycleState &s, ReconstructionReport &r
 
 CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
 {
+  if (scene.prescribed.kind != FieldKind::None)
+    return advancePrescribed(scene, s, times);
   Exchange const &exchange = *scene.exchange;
   Mesh const &mesh = scene.mesh;
   CycleReport report;
   LagrangeWork &work = s.work;
+  bool const closes = scene.kinematics == Kinematics::Single && scene.lagrange.closure == Closure::Compressibility;
   {
     PhaseTimer timer("lagrange", times.lagrange);
     prepareWork(s.pairs, s.dof_nodes, work);
@@ -281,6 +277,8 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   TimeStepLimit next;
   {
     PhaseTimer timer("lagrange", times.lagrange);
+    if (closes)
+      closeMixedCells(mesh, s.pairs, s.state, scene.materials, dt, work);
     report.update = updatePairs(mesh, s.pairs, s.state, scene.materials, scene.lagrange, dt, work, next);
   }
   moveBodies(s.bodies, dt);
@@ -296,9 +294,15 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   }
   else
   {
-    RigidRows const rigid = rigidRows(scene, s);
+    // Volume fractions have changed within the cells.
+    if (closes)
+    {
+      PhaseTimer timer("reconstruct", times.reconstruct);
+      reconstructState(scene, s, report.reconstruction);
+    }
     {
       PhaseTimer timer("remap", times.remap);
+      RigidRows const &rigid = rigidRows(scene, s);
       RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
                                  scene.materials, work.half, dt, rigid, scene.remap, report.remap, s.remap_work);
       s.pairs = result.pairs;

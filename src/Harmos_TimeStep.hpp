@@ -6,6 +6,7 @@
 
 #include <Harmos_Constrain.hpp>
 #include <Harmos_Lagrange.hpp>
+#include <Harmos_PrescribedField.hpp>
 #include <Harmos_Reconstruct.hpp>
 #include <Harmos_Remap.hpp>
 #include <Harmos_Shape.hpp>
@@ -33,6 +34,7 @@ struct Scene
   ConstraintOptions constraint;
   RemapOptions remap;
   View<double *[4]> subzone_fraction; // lagrangian: of the mesh at the start
+  PrescribedField prescribed;         // with a kind: no mechanics, all moves with it
   double max_dt = 1e300;              // [s]
   Exchange const *exchange = nullptr;
 };
@@ -47,6 +49,8 @@ struct CycleState
   LagrangeWork work;            // scratch, kept from cycle to cycle
   RemapWork remap_work;         // the same
   std::vector<RigidBody> bodies;
+  RigidRows rigid_rows;              // what the bodies fill at
+  std::vector<RigidBody> rigid_pose; // these poses
   std::vector<Tracer> tracers; // moved with v^{n+1/2}
   double time = 0.0;   // [s], of the records; velocities are half a step behind
   double dt = 0.0;     // of the next cycle [s]
@@ -76,6 +80,7 @@ struct CycleReport
   RemapReport remap;
   double external_work = 0.0; // gravity, walls, driven bodies
   Vector2 external_impulse = {0.0, 0.0};
+  double restored_volume = 0.0;       // prescribed field: sum over materials of |volume given back| [length^2]
   double kinetic_energy = 0.0; // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
 };
 
@@ -88,7 +93,8 @@ PointField pointField(Scene const &scene, CycleState const &state);
 /// Filled regions of the state -> state.regions. Once at the start; every cycle ends with it.
 void reconstructState(Scene const &scene, CycleState &state, ReconstructionReport &report);
 
-/// One cycle: lagrange, constrain, move, remap, and the filled regions of the new state (doc/theory).
+/// One cycle: lagrange, constrain, move, remap, and the filled regions of the new state (doc/theory). With a
+/// prescribed field: move, remap, filled regions.
 ///
 /// \return What happened. `update.inverted` or `update.not_a_number` above zero, or failures of the remap or the
 ///         reconstruction, mean that the state is no longer to be used: the caller stops the run.

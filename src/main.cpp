@@ -26,7 +26,7 @@ char const usage[] =
     "       harmos --version | --help\n"
     "\n"
     "run      runs a deck; results go to DIR (default: results-DECK). SI units.\n"
-    "check    reads and checks a deck, runs nothing\n"
+    "check    reads and checks a deck and places its bodies; runs and writes nothing\n"
     "schema   lists every key of a deck: type, default, unit, allowed values\n"
     "--set    overrides a key of the deck; may be given many times\n"
     "--force  overwrites results that are in DIR\n"
@@ -113,6 +113,7 @@ int dispatch(Arguments const &arguments, Teuchos::RCP<Teuchos::Comm<int> const> 
   Harmos::Deck const deck = Harmos::readDeck(arguments.deck, arguments.overrides, *comm);
   if (arguments.command == "check")
   {
+    Harmos::checkScene(deck, comm);
     if (speaks)
       std::printf("%s: good (%zu bodies, %d x %d cells)\n", arguments.deck.c_str(), deck.bodies.size(), deck.x.cells,
                   deck.y.cells);

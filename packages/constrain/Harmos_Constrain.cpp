@@ -15,6 +15,11 @@ namespace
 void writeHalf(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &predicted,
                BodyTable const &bodies, View<double *[2]> const &half)
 {
+  if (bodies.body.extent(0) == 0)
+  {
+    Kokkos::deep_copy(half, predicted);
+    return;
+  }
   Kokkos::parallel_for(
       "Harmos::constrain::writeHalf", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
         int const material = dof_nodes.material(dof);
@@ -45,7 +50,7 @@ void moveFreeBodies(ContactSystem const &system, View<double *[3]> const &body_c
   auto const change = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), body_change);
   for (int f = 0; f < system.num_free; ++f)
   {
-    RigidBody &body = bodies[static_cast<std::size_t>(system.free_number[static_cast<std::size_t>(f)])];
+    RigidBody &body = bodies[static_cast<std::size_t>(system.free_number(f))];
     body.velocity += Vector2{change(f, 0), change(f, 1)};
     body.angular_velocity += change(f, 2);
   }
@@ -62,15 +67,39 @@ std::vector<RigidBody> meanBodies(std::vector<RigidBody> const &bodies_n, std::v
   return mean;
 }
 
+/// Kinematics `single` without contact walls: both sides of every interface move with the same dof nodes.
+bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions)
+{
+  if (dof_nodes.num_dof_nodes == 0)
+    return true;
+  int first = 0;
+  Kokkos::deep_copy(first, Kokkos::subview(dof_nodes.material, 0));
+  if (first != -1)
+    return false;
+  auto const boundary = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), conditions.boundary);
+  for (std::size_t i = 0; i < boundary.extent(0); ++i)
+    if (boundary(i).kind == BoundaryKind::ContactWall)
+      return false;
+  return true;
+}
+
+/// The rows of this rank and its halo; without interface on any rank one reduction tells that there are none.
 ContactRows findRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                      FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
                      ConstraintOptions const &options, Exchange const &exchange)
 {
-  InterfaceSegments const segments = findInterfaceSegments(mesh, pairs, regions, conditions);
-  SegmentBins const bins = binSegments(mesh, segments, exchange);
+  InterfaceSegments segments;
+  if (!nothingToSeparate(dof_nodes, conditions))
+    segments = findInterfaceSegments(mesh, pairs, regions, conditions);
+  double const largest = exchange.max(largestSegment(mesh, segments));
+  if (largest == 0.0)
+    return {};
+  SegmentBins const bins = binSegments(segments, largest);
   View<RayHit *> const hit = castRays(mesh, segments, bins);
   ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, table, options);
-  exchangeContactRows(mesh, pairs, table, exchange, rows);
+  exchange.sum(&rows.num_multipliers, 1);
+  if (rows.num_multipliers > 0)
+    exchangeContactRows(mesh, pairs, table, exchange, rows);
   return rows;
 }
 
@@ -96,14 +125,13 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
 
   BodyTable const table = buildBodyTable(bodies, num_materials);
   ContactRows const rows = findRows(mesh, pairs, dof_nodes, regions, conditions, table, options, exchange);
-  ContactSystem const system =
-      buildContactSystem(rows, dof_nodes, conditions, dof_mass, predicted, table, bodies, dt, exchange);
-  report.rows = system.num_multipliers;
-  if (system.num_multipliers == 0)
+  report.rows = rows.num_multipliers;
+  if (rows.num_multipliers == 0)
   {
     writeHalf(mesh, dof_nodes, predicted, table, half);
     return report;
   }
+  ContactSystem const system = buildContactSystem(rows, dof_nodes, conditions, dof_mass, predicted, table, bodies, dt);
   MultiplierSolution const solution = solveMultipliers(system, rows, dt, options, exchange);
   report.iterations = solution.iterations;
   report.residual = solution.residual;

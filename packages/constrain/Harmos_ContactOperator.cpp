@@ -26,21 +26,23 @@ KOKKOS_INLINE_FUNCTION double rowVelocity(ContactSystem const &s, View<double *[
 }
 
 /// Give the halo's rows their owners' impulses.
-void shareImpulses(ContactRows const &rows, Exchange const &exchange, View<double **> const &travelling,
-                   View<double *[2]> const &impulse)
+void shareImpulses(TravellingRows const &rows, Exchange const &exchange, PackedRows const &sent,
+                   PackedRows const &received, View<double *[2]> const &impulse)
 {
   if (exchange.size() == 1)
     return;
+  View<int *> const sent_row = rows.sent, received_row = rows.received;
+  PackedRows const out = sent, in = received;
   Kokkos::parallel_for(
-      "Harmos::constrain::packImpulses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
-        travelling(r, 0) = impulse(r, 0);
-        travelling(r, 1) = impulse(r, 1);
+      "Harmos::constrain::packImpulses", RangePolicy(0, sent_row.extent(0)), KOKKOS_LAMBDA(int i) {
+        out(i, 0) = impulse(sent_row(i), 0);
+        out(i, 1) = impulse(sent_row(i), 1);
       });
-  exchange.updateRows(rows.offset, travelling, row_halo);
+  exchange.exchangePacked(sent, received, row_halo);
   Kokkos::parallel_for(
-      "Harmos::constrain::unpackImpulses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
-        impulse(r, 0) = travelling(r, 0);
-        impulse(r, 1) = travelling(r, 1);
+      "Harmos::constrain::unpackImpulses", RangePolicy(0, received_row.extent(0)), KOKKOS_LAMBDA(int i) {
+        impulse(received_row(i), 0) = in(i, 0);
+        impulse(received_row(i), 1) = in(i, 1);
       });
 }
 
@@ -48,7 +50,8 @@ void shareImpulses(ContactRows const &rows, Exchange const &exchange, View<doubl
 
 ContactOperator::ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange)
     : system_(system), rows_(rows), exchange_(exchange),
-      travelling_("Harmos::constrain::travelling", exchange.size() > 1 ? system.num_rows : 0, 2),
+      sent_(packedRows(rows.travelling.sent_offset, static_cast<int>(rows.travelling.sent.extent(0)), 2)),
+      received_(packedRows(rows.travelling.received_offset, static_cast<int>(rows.travelling.received.extent(0)), 2)),
       change_("Harmos::constrain::change", system.num_dofs),
       body_change_("Harmos::constrain::body_change", system.num_free)
 {
@@ -56,7 +59,7 @@ ContactOperator::ContactOperator(ContactSystem const &system, ContactRows const 
 
 void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> const &out) const
 {
-  shareImpulses(rows_, exchange_, travelling_, x);
+  shareImpulses(rows_.travelling, exchange_, sent_, received_, x);
   velocityChange(system_, x, change_);
   bodyVelocityChange(system_, x, exchange_, body_change_);
   ContactSystem const s = system_;

@@ -34,7 +34,7 @@ private:
   ContactSystem const &system_;
   ContactRows const &rows_;
   Exchange const &exchange_;
-  View<double **> travelling_; // impulses of all rows, as the exchange wants them
+  PackedRows sent_, received_; // impulses of the rows that travel
   View<double *[2]> change_;
   View<double *[3]> body_change_;
 };

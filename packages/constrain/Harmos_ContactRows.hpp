@@ -11,14 +11,22 @@ namespace Harmos
 /// Layers of halo cells whose rows this rank holds: those that meet a dof node of an own row, rays reaching two cells.
 constexpr int row_halo = 5;
 
+/// Which rows travel: entries of the lists of Exchange::haloCells(row_halo), and the row behind each packed one.
+struct TravellingRows
+{
+  View<int *> sent_offset, received_offset; // entries + 1
+  View<int *> sent, received;               // packed rows: number of the row
+};
+
 /// Contact rows of this rank, by key: its own (slave cell of depth 0), and after exchangeContactRows those of its halo.
 struct ContactRows
 {
   int count = 0;
   int num_own = 0;
+  long long num_multipliers = 0; // of the own rows; summed over all ranks by constrainVelocities
   View<ContactRow *> row;
-  View<int *> own;    // num_own: the rows whose slave cell is owned, ascending
-  View<int *> offset; // num_cells + 1, rows by slave cell; only with more than one rank
+  View<int *> own;           // num_own: the rows whose slave cell is owned, ascending
+  TravellingRows travelling; // only with more than one rank
 };
 
 /// Rigid bodies as the kernels see them.
@@ -33,6 +41,9 @@ struct BodyTable
     return number == -2 || (number >= 0 && body(number).motion != RigidMotion::Free);
   }
 };
+
+/// Room for packed rows of `width` numbers; `total` = the last of the offsets.
+PackedRows packedRows(View<int *> const &offset, int total, int width);
 
 BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials);
 

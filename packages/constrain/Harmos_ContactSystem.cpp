@@ -15,12 +15,19 @@ KOKKOS_INLINE_FUNCTION int dofOf(ContactRow const &row, int slot)
   return side[slot & 3];
 }
 
+/// An array that the next kernel fills.
+template <class T>
+View<T> unset(char const *label, int size)
+{
+  return View<T>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
+}
+
 /// Number the dof nodes that rows touch and list the rows at each, in key order.
 void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &system)
 {
   View<ContactRow *> const row = rows.row;
   View<int *> const uses("Harmos::constrain::dof_uses", num_dof_nodes);
-  View<int *> const place("Harmos::constrain::dof_place", num_dof_nodes);
+  View<int *> const place = unset<int *>("Harmos::constrain::dof_place", num_dof_nodes); // of used ones alone
   Kokkos::parallel_for(
       "Harmos::constrain::countUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
@@ -30,25 +37,24 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
             Kokkos::atomic_increment(&uses(dof));
         }
       });
+  int const most = Math::min(num_dof_nodes, 8 * rows.count);
+  View<int *> const dof_node = unset<int *>("Harmos::constrain::contact_dof_node", most);
+  View<int *> const offset("Harmos::constrain::rows_of_offset", most + 1);
   Kokkos::parallel_scan(
       "Harmos::constrain::numberDofs", RangePolicy(0, num_dof_nodes),
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
-        int const used = uses(i) > 0 ? 1 : 0;
+        if (uses(i) == 0)
+          return;
         if (final)
-          place(i) = used ? sum : -1;
-        sum += used;
+        {
+          place(i) = sum;
+          dof_node(sum) = i;
+          offset(sum + 1) = uses(i);
+        }
+        ++sum;
       },
       system.num_dofs);
-  View<int *> const dof_node("Harmos::constrain::contact_dof_node", system.num_dofs);
-  View<int *> const offset("Harmos::constrain::rows_of_offset", system.num_dofs + 1);
   View<int *> const filled("Harmos::constrain::rows_of_filled", system.num_dofs);
-  Kokkos::parallel_for(
-      "Harmos::constrain::listDofs", RangePolicy(0, num_dof_nodes), KOKKOS_LAMBDA(int i) {
-        if (place(i) < 0)
-          return;
-        dof_node(place(i)) = i;
-        offset(place(i) + 1) = uses(i);
-      });
   int entries = 0;
   Kokkos::parallel_scan(
       "Harmos::constrain::scanUses", RangePolicy(0, system.num_dofs + 1),
@@ -58,8 +64,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
           offset(i) = sum;
       },
       entries);
-  View<int *> const item("Harmos::constrain::rows_of", entries);
-  View<int *[8]> const compact("Harmos::constrain::row_dof", rows.count);
+  View<int *> const item = unset<int *>("Harmos::constrain::rows_of", entries);
+  View<int *[8]> const compact = unset<int *[8]>("Harmos::constrain::row_dof", rows.count);
   Kokkos::parallel_for(
       "Harmos::constrain::fillUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
@@ -89,8 +95,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
 void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
                 View<double *> const &dof_mass, ContactSystem &system)
 {
-  View<double *> const inverse_mass("Harmos::constrain::inverse_mass", system.num_dofs);
-  View<NodeCondition *> const condition("Harmos::constrain::condition", system.num_dofs);
+  View<double *> const inverse_mass = unset<double *>("Harmos::constrain::inverse_mass", system.num_dofs);
+  View<NodeCondition *> const condition = unset<NodeCondition *>("Harmos::constrain::condition", system.num_dofs);
   View<int *> const dof_node = system.dof_node;
   Kokkos::parallel_for(
       "Harmos::constrain::gatherDofs", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
@@ -109,11 +115,12 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
 {
   View<int *> const number("Harmos::constrain::free_number", bodies.size());
   auto const host = Kokkos::create_mirror_view(number);
+  system.free_number = HostView<int *>("Harmos::constrain::free_body", bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b)
   {
     host(b) = bodies[b].motion == RigidMotion::Free ? system.num_free++ : -1;
     if (host(b) >= 0)
-      system.free_number.push_back(static_cast<int>(b));
+      system.free_number(host(b)) = static_cast<int>(b);
   }
   Kokkos::deep_copy(number, host);
   system.body_inverse_mass = View<double *[3]>("Harmos::constrain::body_inverse_mass", system.num_free);
@@ -122,7 +129,7 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
   auto const scale = Kokkos::create_mirror_view(system.body_scale);
   for (int f = 0; f < system.num_free; ++f)
   {
-    RigidBody const &body = bodies[static_cast<std::size_t>(system.free_number[static_cast<std::size_t>(f)])];
+    RigidBody const &body = bodies[static_cast<std::size_t>(system.free_number(f))];
     inverse(f, 0) = inverse(f, 1) = body.inverseMass();
     inverse(f, 2) = body.inverseInertia();
     scale(f, 0) = scale(f, 1) = 1.0;
@@ -137,12 +144,12 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
 void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyTable const &table,
               View<int *> const &free_number, double dt, ContactSystem &system)
 {
-  system.tied = View<int *>("Harmos::constrain::tied", rows.count);
-  system.normal = View<double *[2]>("Harmos::constrain::row_normal", rows.count);
-  system.weight = View<double *[8]>("Harmos::constrain::row_weight", rows.count);
-  system.predicted = View<double *[2]>("Harmos::constrain::row_predicted", rows.count);
-  system.free_body = View<int *[2]>("Harmos::constrain::row_body", rows.count);
-  system.arm = View<double *[4]>("Harmos::constrain::row_arm", rows.count);
+  system.tied = unset<int *>("Harmos::constrain::tied", rows.count);
+  system.normal = unset<double *[2]>("Harmos::constrain::row_normal", rows.count);
+  system.weight = unset<double *[8]>("Harmos::constrain::row_weight", rows.count);
+  system.predicted = unset<double *[2]>("Harmos::constrain::row_predicted", rows.count);
+  system.free_body = unset<int *[2]>("Harmos::constrain::row_body", rows.count);
+  system.arm = unset<double *[4]>("Harmos::constrain::row_arm", rows.count);
   ContactSystem const s = system;
   View<ContactRow *> const row = rows.row;
   Kokkos::parallel_for(
@@ -223,7 +230,7 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  View<double *[2]> const &predicted, BodyTable const &table,
-                                 std::vector<RigidBody> const &bodies, double dt, Exchange const &exchange)
+                                 std::vector<RigidBody> const &bodies, double dt)
 {
   ContactSystem system;
   system.num_rows = rows.count;
@@ -235,18 +242,13 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   fillRows(rows, predicted, table, free_number, dt, system);
   system.diagonal = View<double *[2]>("Harmos::constrain::diagonal", rows.count);
   ContactSystem const s = system;
-  long long multipliers = 0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::rowSums", RangePolicy(0, rows.num_own),
-      KOKKOS_LAMBDA(int i, long long &count) {
+  Kokkos::parallel_for(
+      "Harmos::constrain::rowSums", RangePolicy(0, rows.num_own), KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
           s.diagonal(row, k) = rowSum(s, row, k);
-        count += s.directions(row);
-      },
-      multipliers);
-  exchange.sum(&multipliers, 1);
-  system.num_multipliers = multipliers;
+      });
+  system.num_multipliers = rows.num_multipliers;
   return system;
 }
 

@@ -37,7 +37,7 @@ struct ContactSystem
 
   View<double *[3]> body_inverse_mass; // num_free: 1/m, 1/m, 1/I
   View<double *[3]> body_scale;        // num_free: 1, 1, radius of gyration: makes the components alike
-  std::vector<int> free_number;        // num_free: number of the body
+  HostView<int *> free_number;         // num_free: number of the body
 
   KOKKOS_INLINE_FUNCTION int directions(int row) const { return 1 + tied(row); }
 
@@ -58,11 +58,10 @@ struct ContactSystem
 };
 
 /// \param predicted v* of all dof nodes; \param bodies Rigid bodies with predicted velocities.
-/// Collective.
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  View<double *[2]> const &predicted, BodyTable const &table,
-                                 std::vector<RigidBody> const &bodies, double dt, Exchange const &exchange);
+                                 std::vector<RigidBody> const &bodies, double dt);
 
 /// Change of the dof velocities by impulses: M^-1 P G^T p. [m/s]
 /// \param impulse num_rows (halo rows included); \param change num_dofs

@@ -32,45 +32,76 @@ struct Edge
 {
   Vector2 start, direction, normal; // direction and normal are unit vectors
   double length;
-
-  KOKKOS_INLINE_FUNCTION Edge(Vector2 const &a, Vector2 const &b)
-      : start(a), direction(b - a), normal{0.0, 0.0}, length(norm(direction))
-  {
-    if (length > 0.0)
-      direction *= 1.0 / length;
-    normal = -perpendicular(direction);
-  }
 };
+
+KOKKOS_INLINE_FUNCTION Edge edgeBetween(Vector2 const &a, Vector2 const &b)
+{
+  Edge edge{a, b - a, {0.0, 0.0}, 0.0};
+  edge.length = norm(edge.direction);
+  if (edge.length > 0.0)
+    edge.direction *= 1.0 / edge.length;
+  edge.normal = -perpendicular(edge.direction);
+  return edge;
+}
+
+/// What the segments of one cell share.
+struct CellFrame
+{
+  Quadrilateral corner;
+  Edge face[4];
+  double size;      // sqrt of the area
+  double tolerance; // shorter pieces, and distances to a line, count as nothing
+};
+
+KOKKOS_INLINE_FUNCTION CellFrame cellFrame(Mesh const &mesh, int cell)
+{
+  CellFrame frame;
+  frame.corner = cellQuadrilateral(mesh, cell);
+  for (int k = 0; k < 4; ++k)
+    frame.face[k] = edgeBetween(frame.corner[k], frame.corner[(k + 1) % 4]);
+  frame.size = Math::sqrt(mesh.cell_area(cell));
+  frame.tolerance = negligible * frame.size;
+  return frame;
+}
 
 /// Add the intervals of an edge that a region's edges touch from the other side.
 KOKKOS_INLINE_FUNCTION void addCover(Edge const &edge, Region const &region, int material, double tolerance,
                                      EdgeCovers &covers)
 {
+  if (region.empty())
+    return;
+  Vector2 a = region[region.size - 1] - edge.start;
+  bool a_near = Math::fabs(dot(a, edge.normal)) <= tolerance;
   for (int i = 0; i < region.size && covers.count < max_covers; ++i)
   {
-    Vector2 const a = region[i] - edge.start;
-    Vector2 const b = region[region.next(i)] - edge.start;
-    double const end = Math::min(dot(a, edge.direction), edge.length);
-    double const begin = Math::max(dot(b, edge.direction), 0.0);
-    if (end - begin <= tolerance || Math::fabs(dot(a, edge.normal)) > tolerance ||
-        Math::fabs(dot(b, edge.normal)) > tolerance)
-      continue;
-    covers.begin[covers.count] = begin;
-    covers.end[covers.count] = end;
-    covers.material[covers.count++] = material;
+    Vector2 const b = region[i] - edge.start;
+    bool const b_near = Math::fabs(dot(b, edge.normal)) <= tolerance;
+    if (a_near && b_near)
+    {
+      double const end = Math::min(dot(a, edge.direction), edge.length);
+      double const begin = Math::max(dot(b, edge.direction), 0.0);
+      if (end - begin > tolerance)
+      {
+        covers.begin[covers.count] = begin;
+        covers.end[covers.count] = end;
+        covers.material[covers.count++] = material;
+      }
+    }
+    a = b;
+    a_near = b_near;
   }
 }
 
 /// The cell face that an edge lies on, with the face's own direction; -1: none.
-KOKKOS_INLINE_FUNCTION int faceOfEdge(Quadrilateral const &cell, Edge const &edge, double tolerance)
+KOKKOS_INLINE_FUNCTION int faceOfEdge(CellFrame const &frame, Edge const &edge)
 {
   Vector2 const end = edge.start + edge.length * edge.direction;
   for (int k = 0; k < 4; ++k)
   {
-    Edge const face(cell[k], cell[(k + 1) % 4]);
+    Edge const &face = frame.face[k];
     if (dot(face.direction, edge.direction) > 0.0 &&
-        Math::fabs(dot(edge.start - face.start, face.normal)) <= tolerance &&
-        Math::fabs(dot(end - face.start, face.normal)) <= tolerance)
+        Math::fabs(dot(edge.start - face.start, face.normal)) <= frame.tolerance &&
+        Math::fabs(dot(end - face.start, face.normal)) <= frame.tolerance)
       return k;
   }
   return -1;
@@ -85,7 +116,8 @@ struct EdgePieces
   double end[2 * max_covers + 1];
 };
 
-KOKKOS_INLINE_FUNCTION EdgePieces exposedPieces(double length, EdgeCovers const &covers, int material, double tolerance)
+KOKKOS_INLINE_FUNCTION void exposedPieces(double length, EdgeCovers const &covers, int material, double tolerance,
+                                          EdgePieces &pieces)
 {
   double at[2 * max_covers + 2];
   int count = 0;
@@ -100,7 +132,6 @@ KOKKOS_INLINE_FUNCTION EdgePieces exposedPieces(double length, EdgeCovers const 
         at[j] = at[j - 1];
       at[j] = s;
     }
-  EdgePieces pieces;
   int last = -2; // what lies beyond the last piece; -1 is void
   for (int i = 0; i + 1 < count; ++i)
   {
@@ -124,29 +155,31 @@ KOKKOS_INLINE_FUNCTION EdgePieces exposedPieces(double length, EdgeCovers const 
     }
     last = beyond;
   }
-  return pieces;
 }
 
 /// Both halves of a free face of a body-fitted mesh. With one point a face, corners that sink and rise by turns satisfy
 /// every row: nothing but the stiffness of long cells would hold them. Two points leave no such motion.
-KOKKOS_INLINE_FUNCTION EdgePieces halves(double length)
+KOKKOS_INLINE_FUNCTION void halves(double length, EdgePieces &pieces)
 {
-  EdgePieces pieces;
   pieces.count = 2;
   pieces.total = length;
   pieces.end[0] = pieces.begin[1] = 0.5 * length;
   pieces.begin[0] = 0.0;
   pieces.end[1] = length;
-  return pieces;
 }
 
-/// Counts, or writes, the segments of single cells.
+// What fills a cell: the material of a pure one, else one of these.
+constexpr int void_filling = -1;
+constexpr int mixed_filling = -2;
+
+/// Writes the segments of single cells.
 struct SegmentFinder
 {
   Mesh mesh;
   CellMaterialPairs pairs;
   FilledRegions regions;
   View<Boundary *> boundary;
+  View<int *> filling;
   View<InterfaceSegment *> segment;
 
   KOKKOS_INLINE_FUNCTION bool contactWall(int cell, int face) const
@@ -155,68 +188,71 @@ struct SegmentFinder
     return b >= 0 && boundary(b).kind == BoundaryKind::ContactWall;
   }
 
+  KOKKOS_INLINE_FUNCTION int fillingOf(int cell) const
+  {
+    int const kind = pairs.cell_kind(cell);
+    return kind == PureCell ? pairs.material(pairs.offset(cell)) : kind == VoidCell ? void_filling : mixed_filling;
+  }
+
   /// False where no segment can lie: a pure cell among its like, void away from contact walls.
   KOKKOS_INLINE_FUNCTION bool visits(int cell) const
   {
     if (mesh.halo > 0 && mesh.cell_depth(cell) >= mesh.halo)
       return false;
-    int const kind = pairs.cell_kind(cell);
-    if (kind == MixedCell)
+    int const own = filling(cell);
+    if (own == mixed_filling)
       return true;
     for (int k = 0; k < 4; ++k)
     {
       int const across = mesh.face_neighbour(cell, k);
-      if (across < 0)
-      {
-        if (contactWall(cell, k) || (kind == PureCell && mesh.face_boundary(cell, k) < 0))
-          return true;
-      }
-      else if (kind == PureCell && !pureOf(across / 4, pairs.material(pairs.offset(cell))))
+      if (across >= 0 ? own >= 0 && filling(across / 4) != own
+                      : contactWall(cell, k) || (own >= 0 && mesh.face_boundary(cell, k) < 0))
         return true;
     }
     return false;
   }
 
-  KOKKOS_INLINE_FUNCTION bool pureOf(int cell, int material) const
-  {
-    return pairs.cell_kind(cell) == PureCell && pairs.material(pairs.offset(cell)) == material;
-  }
-
   KOKKOS_INLINE_FUNCTION void coverBy(int cell, int except, Edge const &edge, double tolerance,
                                       EdgeCovers &covers) const
   {
-    for (int other = pairs.offset(cell); other < pairs.offset(cell + 1); ++other)
+    int const first = regions.cell_region(cell), begin = pairs.offset(cell);
+    for (int other = begin; other < pairs.offset(cell + 1); ++other)
       if (other != except)
-        addCover(edge, regions.region(mesh, pairs, other), pairs.material(other), tolerance, covers);
+      {
+        if (first >= 0)
+          addCover(edge, regions.polygon(first + other - begin), pairs.material(other), tolerance, covers);
+        else
+          addCover(edge, regions.region(mesh, pairs, other), pairs.material(other), tolerance, covers);
+      }
   }
 
-  /// Segments of one edge; returns their number; writes them from `first` on when first >= 0.
-  KOKKOS_INLINE_FUNCTION int edgeSegments(int pair, Edge const &edge, Quadrilateral const &cell_shape, double cell_size,
-                                          int number, int first) const
+  /// Write the segments of one edge of a pair's region, on a face of its cell or (face = -1) inside, from `first` on,
+  /// as far as there is room; returns their number. `blank` holds what the cell's segments share.
+  KOKKOS_INLINE_FUNCTION int edgeSegments(int pair, Edge const &edge, int face, CellFrame const &frame,
+                                          InterfaceSegment const &blank, int number, int first) const
   {
-    int const cell = pairs.cell(pair);
+    int const cell = blank.cell;
     int const material = pairs.material(pair);
-    double const tolerance = negligible * cell_size;
-    int const face = faceOfEdge(cell_shape, edge, tolerance);
-    EdgeCovers covers;
-    if (face < 0)
-      coverBy(cell, pair, edge, tolerance, covers);
+    int const across = face < 0 ? -1 : mesh.face_neighbour(cell, face);
+    bool const outer = face >= 0 && across < 0;
+    bool const free = outer && mesh.face_boundary(cell, face) < 0;
+    if (outer ? !free && !contactWall(cell, face) : across >= 0 && filling(across / 4) == material)
+      return 0;
+    EdgePieces pieces;
+    if (free)
+      halves(edge.length, pieces);
     else
     {
-      int const across = mesh.face_neighbour(cell, face);
-      if (across >= 0 ? pureOf(across / 4, material) : mesh.face_boundary(cell, face) >= 0 && !contactWall(cell, face))
-        return 0;
-      if (across >= 0)
-        coverBy(across / 4, -1, edge, tolerance, covers);
+      EdgeCovers covers;
+      if (!outer)
+        coverBy(face < 0 ? cell : across / 4, face < 0 ? pair : -1, edge, frame.tolerance, covers);
+      exposedPieces(edge.length, covers, material, frame.tolerance, pieces);
     }
-    bool const free = face >= 0 && mesh.face_neighbour(cell, face) < 0 && mesh.face_boundary(cell, face) < 0;
-    EdgePieces const pieces = free ? halves(edge.length) : exposedPieces(edge.length, covers, material, tolerance);
-    if (first < 0)
-      return pieces.count;
-    double const exposed = face < 0 ? 1.0 : pieces.total / norm(cell_shape[(face + 1) % 4] - cell_shape[face]);
-    for (int i = 0; i < pieces.count; ++i)
+    double const exposed = face < 0 ? 1.0 : pieces.total / frame.face[face].length;
+    for (int i = 0; i < pieces.count && first + i < static_cast<int>(segment.extent(0)); ++i)
     {
-      InterfaceSegment s = emptySegment(cell, cell_shape, cell_size);
+      InterfaceSegment &s = segment(first + i);
+      s = blank;
       s.midpoint = edge.start + 0.5 * (pieces.begin[i] + pieces.end[i]) * edge.direction;
       s.point =
           free ? edge.start + (i == 0 ? gauss_point : 1.0 - gauss_point) * edge.length * edge.direction : s.midpoint;
@@ -227,49 +263,66 @@ struct SegmentFinder
       s.pair = pair;
       s.material = material;
       s.face = face;
-      segment(first + i) = s;
     }
     return pieces.count;
   }
 
-  static KOKKOS_INLINE_FUNCTION InterfaceSegment emptySegment(int cell, Quadrilateral const &q, double cell_size)
+  static KOKKOS_INLINE_FUNCTION InterfaceSegment blankSegment(int cell, CellFrame const &frame)
   {
     InterfaceSegment s = {};
+    Quadrilateral const &q = frame.corner;
     Vector2 const e1 = 0.5 * ((q[1] - q[0]) + (q[2] - q[3]));
     Vector2 const e2 = 0.5 * ((q[3] - q[0]) + (q[2] - q[1]));
     double const det = cross(e1, e2);
     s.cell_centre = 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));
     s.lattice[0] = (-1.0 / det) * perpendicular(e2);
     s.lattice[1] = (1.0 / det) * perpendicular(e1);
-    s.cell_size = cell_size;
+    s.cell_size = frame.size;
     s.cell = cell;
     return s;
   }
 
-  /// All segments of a cell; returns their number; writes them from `first` on when first >= 0.
-  KOKKOS_INLINE_FUNCTION int cellSegments(int cell, int first) const
+  /// Edges of the cell's regions: a pure cell's are its faces.
+  KOKKOS_INLINE_FUNCTION int regionSegments(CellFrame const &frame, InterfaceSegment const &blank, int first) const
   {
-    Quadrilateral const shape = cellQuadrilateral(mesh, cell);
-    double const cell_size = Math::sqrt(mesh.cell_area(cell));
+    int const cell = blank.cell, begin = pairs.offset(cell);
     int count = 0;
-    for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
+    if (filling(cell) >= 0)
     {
-      Region const region = regions.region(mesh, pairs, pair);
+      for (int k = 0; k < 4; ++k)
+        if (frame.face[k].length > frame.tolerance)
+          count += edgeSegments(begin, frame.face[k], k, frame, blank, count, first + count);
+      return count;
+    }
+    int const first_region = regions.cell_region(cell);
+    for (int pair = begin; pair < pairs.offset(cell + 1); ++pair)
+    {
+      Region const &region = regions.polygon(first_region + pair - begin);
       for (int i = 0; i < region.size; ++i)
       {
-        Edge const edge(region[i], region[region.next(i)]);
-        if (edge.length > negligible * cell_size)
-          count += edgeSegments(pair, edge, shape, cell_size, count, first < 0 ? first : first + count);
+        Edge const edge = edgeBetween(region[i], region[region.next(i)]);
+        if (edge.length > frame.tolerance)
+          count += edgeSegments(pair, edge, faceOfEdge(frame, edge), frame, blank, count, first + count);
       }
     }
+    return count;
+  }
+
+  /// Write all segments of a cell from `first` on, as far as there is room; returns their number.
+  KOKKOS_INLINE_FUNCTION int cellSegments(int cell, int first) const
+  {
+    CellFrame const frame = cellFrame(mesh, cell);
+    InterfaceSegment const blank = blankSegment(cell, frame);
+    int count = regionSegments(frame, blank, first);
     for (int k = 0; k < 4; ++k)
     {
       if (!contactWall(cell, k))
         continue;
-      Edge const face(shape[k], shape[(k + 1) % 4]);
-      if (first >= 0)
+      if (first + count < static_cast<int>(segment.extent(0)))
       {
-        InterfaceSegment s = emptySegment(cell, shape, cell_size);
+        InterfaceSegment &s = segment(first + count);
+        Edge const &face = frame.face[k];
+        s = blank;
         s.point = s.midpoint = face.start + 0.5 * face.length * face.direction;
         s.normal = -face.normal;
         s.length = face.length;
@@ -277,7 +330,6 @@ struct SegmentFinder
         s.number = count;
         s.pair = s.material = -1;
         s.face = k;
-        segment(first + count) = s;
       }
       ++count;
     }
@@ -285,57 +337,79 @@ struct SegmentFinder
   }
 };
 
+template <class T>
+View<T *> unset(char const *label, int size)
+{
+  return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
+}
+
+/// The cells that may carry segments, ascending.
+View<int *> interfaceCells(Mesh const &mesh, SegmentFinder const &finder, int &count)
+{
+  View<int *> const filling = finder.filling;
+  Kokkos::parallel_for(
+      "Harmos::constrain::fillings", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell) { filling(cell) = finder.fillingOf(cell); });
+  View<int *> const visited = unset<int>("Harmos::constrain::interface_cell", mesh.num_cells);
+  Kokkos::parallel_scan(
+      "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &sum, bool final) {
+        if (!finder.visits(cell))
+          return;
+        if (final)
+          visited(sum) = cell;
+        ++sum;
+      },
+      count);
+  return visited;
+}
+
+/// Write the segments of the listed cells one after the other as far as there is room; returns their number.
+int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int num_visited, View<int *> const &first)
+{
+  int count = 0;
+  Kokkos::parallel_scan(
+      "Harmos::constrain::writeSegments", RangePolicy(0, num_visited),
+      KOKKOS_LAMBDA(int i, int &sum, bool final) {
+        if (final)
+          first(i) = sum;
+        sum += finder.cellSegments(visited(i), final ? sum : static_cast<int>(finder.segment.extent(0)));
+      },
+      count);
+  return count;
+}
+
 } // namespace
 
 InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
                                         BoundaryConditions const &conditions)
 {
-  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}};
-  View<int *> const place("Harmos::constrain::place", mesh.num_cells);
+  constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
+  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, {}};
+  finder.filling = unset<int>("Harmos::constrain::filling", mesh.num_cells);
   int num_visited = 0;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::countInterfaceCells", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell, int &sum, bool final) {
-        int const visited = finder.visits(cell) ? 1 : 0;
-        if (final)
-          place(cell) = visited ? sum : -1;
-        sum += visited;
-      },
-      num_visited);
-  View<int *> const visited("Harmos::constrain::interface_cell", num_visited);
-  View<int *> const first("Harmos::constrain::first_segment", num_visited);
-  Kokkos::parallel_for(
-      "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        if (place(cell) >= 0)
-          visited(place(cell)) = cell;
-      });
+  View<int *> const visited = interfaceCells(mesh, finder, num_visited);
+  View<int *> const first = unset<int>("Harmos::constrain::first_segment", num_visited);
+  InterfaceSegments result;
+  finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", usual_segments * num_visited);
+  result.count = writeSegments(finder, visited, num_visited, first);
+  if (result.count > static_cast<int>(finder.segment.extent(0)))
+  {
+    finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", result.count);
+    writeSegments(finder, visited, num_visited, first);
+  }
+  int const total = result.count;
   int most = 0;
   Kokkos::parallel_reduce(
-      "Harmos::constrain::countSegments", RangePolicy(0, num_visited),
+      "Harmos::constrain::mostSegments", RangePolicy(0, num_visited),
       KOKKOS_LAMBDA(int i, int &largest) {
-        first(i) = finder.cellSegments(visited(i), -1);
-        largest = Math::max(largest, first(i));
+        largest = Math::max(largest, (i + 1 < num_visited ? first(i + 1) : total) - first(i));
       },
       Kokkos::Max<int>(most));
   if (num_visited > 0 && most > max_cell_segments)
     throw std::runtime_error("interface segments: " + std::to_string(most) + " in one cell, at most " +
                              std::to_string(max_cell_segments));
-  InterfaceSegments result;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::scanSegments", RangePolicy(0, num_visited),
-      KOKKOS_LAMBDA(int i, int &sum, bool final) {
-        int const count = first(i);
-        if (final)
-          first(i) = sum;
-        sum += count;
-      },
-      result.count);
-  result.segment = View<InterfaceSegment *>(
-      Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::segment"), result.count);
-  finder.segment = result.segment;
-  Kokkos::parallel_for(
-      "Harmos::constrain::writeSegments", RangePolicy(0, num_visited),
-      KOKKOS_LAMBDA(int i) { finder.cellSegments(visited(i), first(i)); });
+  result.segment = finder.segment;
   return result;
 }
 

@@ -33,7 +33,7 @@ struct InterfaceSegment
 struct InterfaceSegments
 {
   int count = 0;
-  View<InterfaceSegment *> segment;
+  View<InterfaceSegment *> segment; // count, and some room
 };
 
 /// The boundaries of the filled regions: interface edges inside mixed cells, and the exposed parts of cell faces, which
@@ -44,7 +44,7 @@ struct InterfaceSegments
 /// is a free surface (of a body-fitted block), in two segments, each with a Gauss point. Cells of depth
 /// mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
 ///
-/// Cost: one comparison of a few integers a cell, the rest follows the interfaces.
+/// Cost: five integers a cell are compared, the rest follows the interfaces.
 /// Throws std::runtime_error when a cell has more than max_cell_segments.
 InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
                                         BoundaryConditions const &conditions);

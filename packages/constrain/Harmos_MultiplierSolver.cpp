@@ -18,7 +18,7 @@ struct Conjugate
   View<double *[2]> r;         // b + A p
   View<double *[2]> direction; // of p
   View<double *[2]> product;   // A direction
-  View<double *[4]> term;      // own rows: summands
+  View<double *[2]> term;      // own rows: summands
   double fixed_step = 1.9;     // of projected gradient steps, below 2 / (norm of the scaled operator)
 
   explicit Conjugate(ContactSystem const &s)
@@ -51,7 +51,7 @@ double operatorNorm(ContactSystem const &s, Conjugate const &c, Exchange const &
               trace += j * j * s.body_inverse_mass(s.free_body(row, side), b) / s.diagonal(row, k);
             }
         c.term(i, 0) = trace;
-        c.term(i, 1) = c.term(i, 2) = c.term(i, 3) = 0.0;
+        c.term(i, 1) = 0.0;
       });
   return 1.0 + reproducibleColumnSums(c.term, s.num_multipliers, exchange)[0];
 }
@@ -80,7 +80,6 @@ GradientNorms gradientNorms(ContactSystem const &s, Conjugate const &c, Exchange
         }
         c.term(i, 0) = free;
         c.term(i, 1) = chopped;
-        c.term(i, 2) = c.term(i, 3) = 0.0;
       });
   auto const sum = reproducibleColumnSums(c.term, s.num_multipliers, exchange);
   return {sum[0], sum[1]};
@@ -121,7 +120,6 @@ Slope slopeAlong(ContactSystem const &s, Conjugate const &c, Exchange const &exc
         }
         c.term(i, 0) = descent;
         c.term(i, 1) = curvature;
-        c.term(i, 2) = c.term(i, 3) = 0.0;
       });
   auto const sum = reproducibleColumnSums(c.term, s.num_multipliers, exchange);
   return {sum[0], sum[1]};
@@ -138,7 +136,7 @@ double conjugation(ContactSystem const &s, Conjugate const &c, Exchange const &e
           if (isFree(s, c, row, k))
             sum += c.r(row, k) * c.product(row, k) / s.diagonal(row, k);
         c.term(i, 0) = sum;
-        c.term(i, 1) = c.term(i, 2) = c.term(i, 3) = 0.0;
+        c.term(i, 1) = 0.0;
       });
   return reproducibleColumnSums(c.term, s.num_multipliers, exchange)[0];
 }

@@ -30,7 +30,7 @@ struct MultiplierSolution
 /// Residual: the largest |r| over rows with p > 0 or tied, and max(0, -r) over the others, relative to
 /// max(largest |G v*|, 1e-6 speed_scale). Every comparison is between numbers that do not depend on ranks.
 ///
-/// \param rows Their `offset` carries the multipliers between ranks.
+/// \param rows Their `travelling` carries the multipliers between ranks.
 /// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23-43.
 MultiplierSolution solveMultipliers(ContactSystem const &system, ContactRows const &rows, double dt,
                                     ConstraintOptions const &options, Exchange const &exchange);

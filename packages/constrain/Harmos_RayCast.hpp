@@ -23,8 +23,10 @@ struct RayHit
 
 /// Distance along a ray at which it crosses a facing segment, with a small tolerance at the segment's ends.
 /// \return False when it does not cross, or the segment does not face it.
-KOKKOS_INLINE_FUNCTION bool crossSegment(Vector2 const &origin, Vector2 const &direction,
-                                         InterfaceSegment const &target, double &distance)
+/// \param target An InterfaceSegment or a BinnedSegment.
+template <class Segment>
+KOKKOS_INLINE_FUNCTION bool crossSegment(Vector2 const &origin, Vector2 const &direction, Segment const &target,
+                                         double &distance)
 {
   double const slope = dot(direction, target.normal);
   if (slope > -facing_cosine)

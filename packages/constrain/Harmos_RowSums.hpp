@@ -9,6 +9,22 @@
 namespace Harmos
 {
 
+/// The columns' sums in quanta: all in one reduction.
+template <int Width>
+struct ColumnQuanta
+{
+  using value_type = long long[];
+  unsigned value_count = Width;
+  View<double *[Width]> term;
+  ReproducibleSum sum;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, long long *quanta) const
+  {
+    for (int c = 0; c < Width; ++c)
+      quanta[c] += sum.quanta(term(i, c));
+  }
+};
+
 /// Sums of the columns of an array over the rows of all ranks, the same bits for any distribution of the rows.
 ///
 /// The columns are of like size: they share one quantum, 1e-18 of the largest entry times `items`.
@@ -28,10 +44,8 @@ std::array<double, Width> reproducibleColumnSums(View<double *[Width]> const &te
       Kokkos::Max<double>(largest));
   ReproducibleSum const sum = reproducibleSum(exchange.max(count > 0 ? largest : 0.0), items);
   std::array<long long, Width> quanta = {};
-  for (int c = 0; c < Width; ++c)
-    Kokkos::parallel_reduce(
-        "Harmos::constrain::sumTerms", RangePolicy(0, count),
-        KOKKOS_LAMBDA(int i, long long &q) { q += sum.quanta(term(i, c)); }, quanta[static_cast<std::size_t>(c)]);
+  Kokkos::parallel_reduce("Harmos::constrain::sumTerms", RangePolicy(0, count), ColumnQuanta<Width>{Width, term, sum},
+                          quanta.data());
   exchange.sum(quanta.data(), Width);
   std::array<double, Width> result;
   for (int c = 0; c < Width; ++c)

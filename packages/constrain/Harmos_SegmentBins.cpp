@@ -4,36 +4,98 @@
 namespace Harmos
 {
 
-SegmentBins binSegments(Mesh const &mesh, InterfaceSegments const &segments, Exchange const &exchange)
+double largestSegment(Mesh const &mesh, InterfaceSegments const &segments)
 {
-  int const count = segments.count;
   View<InterfaceSegment *> const segment = segments.segment;
+  View<int *> const depth = mesh.cell_depth;
   double largest = 0.0;
   Kokkos::parallel_reduce(
-      "Harmos::constrain::largestSegment", RangePolicy(0, count),
+      "Harmos::constrain::largestSegment", RangePolicy(0, segments.count),
       KOKKOS_LAMBDA(int i, double &l) {
-        if (mesh.cell_depth(segment(i).cell) == 0)
+        if (depth(segment(i).cell) == 0)
           l = Math::max(l, Math::max(segment(i).length, segment(i).cell_size));
       },
       Kokkos::Max<double>(largest));
-  largest = exchange.max(count > 0 ? largest : 0.0);
+  return segments.count > 0 ? Math::max(largest, 0.0) : 0.0;
+}
 
-  SegmentBins bins;
+namespace
+{
+
+/// Segments of each bucket, ascending: what concurrent filling shuffled is sorted.
+KOKKOS_INLINE_FUNCTION void sortRange(View<int *> const &item, int begin, int end)
+{
+  for (int i = begin + 1; i < end; ++i)
+    for (int j = i; j > begin && item(j - 1) > item(j); --j)
+    {
+      int const swap = item(j);
+      item(j) = item(j - 1);
+      item(j - 1) = swap;
+    }
+}
+
+KOKKOS_INLINE_FUNCTION BinnedSegment binned(SegmentBins const &bins, InterfaceSegment const &s, int number)
+{
+  return {s.midpoint,
+          s.normal,
+          s.length,
+          s.cell_size,
+          number,
+          s.material,
+          s.cell,
+          bins.index(s.midpoint[0]),
+          bins.index(s.midpoint[1])};
+}
+
+} // namespace
+
+/// The rows and columns of bins that hold segments, and with them the numbers of bins or buckets.
+int spread(View<InterfaceSegment *> const &segment, int count, SegmentBins &bins)
+{
+  constexpr long long roomy = 64; // bins of the grid for each segment, beyond which it is hashed
+  double least[2] = {0.0, 0.0}, most[2] = {0.0, 0.0};
+  for (int d = 0; d < 2; ++d)
+  {
+    Kokkos::parallel_reduce(
+        "Harmos::constrain::least", RangePolicy(0, count),
+        KOKKOS_LAMBDA(int i, double &l) { l = Math::min(l, segment(i).midpoint[d]); }, Kokkos::Min<double>(least[d]));
+    Kokkos::parallel_reduce(
+        "Harmos::constrain::most", RangePolicy(0, count),
+        KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, segment(i).midpoint[d]); }, Kokkos::Max<double>(most[d]));
+  }
+  if (count > 0)
+  {
+    bins.first_column = bins.index(least[0]);
+    bins.last_column = bins.index(most[0]);
+    bins.first_row = bins.index(least[1]);
+    bins.last_row = bins.index(most[1]);
+  }
+  double const all = (1.0 + bins.last_column - bins.first_column) * (1.0 + bins.last_row - bins.first_row);
+  bins.hashed = all > static_cast<double>(roomy * count);
   int buckets = 16;
-  while (buckets < 2 * count)
+  while (bins.hashed && buckets < 2 * count)
     buckets *= 2;
   bins.mask = buckets - 1;
-  bins.size = largest > 0.0 ? 2.0 * largest : 1.0;
-  bins.offset = View<int *>("Harmos::constrain::bin_offset", buckets + 1);
-  bins.item = View<int *>("Harmos::constrain::bin_item", count);
-  bins.bin_of = View<int *[2]>("Harmos::constrain::bin_of", count);
+  return bins.hashed ? buckets : static_cast<int>(all);
+}
 
+SegmentBins binSegments(InterfaceSegments const &segments, double largest)
+{
+  int const count = segments.count;
+  View<InterfaceSegment *> const segment = segments.segment;
+  SegmentBins bins;
+  bins.size = largest > 0.0 ? largest : 1.0;
+  int const buckets = spread(segment, count, bins);
+  bins.offset = View<int *>("Harmos::constrain::bin_offset", buckets + 1);
+  bins.item =
+      View<BinnedSegment *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bin_item"), count);
+  View<int *> const bucket(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bucket"), count);
+  View<int *> const order(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bin_order"), count);
   View<int *> const filled("Harmos::constrain::bin_filled", buckets);
   Kokkos::parallel_for(
       "Harmos::constrain::countBins", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
-        bins.bin_of(i, 0) = bins.index(segment(i).midpoint[0]);
-        bins.bin_of(i, 1) = bins.index(segment(i).midpoint[1]);
-        Kokkos::atomic_increment(&filled(bins.bucket(bins.bin_of(i, 0), bins.bin_of(i, 1))));
+        bucket(i) = bins.bucket(bins.index(segment(i).midpoint[0]), bins.index(segment(i).midpoint[1]));
+        Kokkos::atomic_increment(&filled(bucket(i)));
       });
   Kokkos::parallel_scan(
       "Harmos::constrain::scanBins", RangePolicy(0, buckets), KOKKOS_LAMBDA(int b, int &sum, bool final) {
@@ -45,19 +107,14 @@ SegmentBins binSegments(Mesh const &mesh, InterfaceSegments const &segments, Exc
         }
       });
   Kokkos::parallel_for(
-      "Harmos::constrain::fillBins", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
-        int const b = bins.bucket(bins.bin_of(i, 0), bins.bin_of(i, 1));
-        bins.item(bins.offset(b) + Kokkos::atomic_fetch_add(&filled(b), 1)) = i;
-      });
+      "Harmos::constrain::fillBins", RangePolicy(0, count),
+      KOKKOS_LAMBDA(int i) { order(bins.offset(bucket(i)) + Kokkos::atomic_fetch_add(&filled(bucket(i)), 1)) = i; });
   Kokkos::parallel_for(
       "Harmos::constrain::sortBins", RangePolicy(0, buckets), KOKKOS_LAMBDA(int b) {
-        for (int i = bins.offset(b) + 1; i < bins.offset(b + 1); ++i)
-          for (int j = i; j > bins.offset(b) && bins.item(j - 1) > bins.item(j); --j)
-          {
-            int const swap = bins.item(j);
-            bins.item(j) = bins.item(j - 1);
-            bins.item(j - 1) = swap;
-          }
+        int const begin = bins.offset(b), end = bins.offset(b + 1);
+        sortRange(order, begin, end);
+        for (int i = begin; i < end; ++i)
+          bins.item(i) = binned(bins, segment(order(i)), order(i));
       });
   return bins;
 }

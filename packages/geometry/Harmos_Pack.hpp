@@ -212,7 +212,8 @@ KOKKOS_FORCEINLINE_FUNCTION void transpose(Pack (&p)[pack_width])
 
 KOKKOS_FORCEINLINE_FUNCTION Pack loadPack(double const *x)
 {
-  return Pack(*reinterpret_cast<Pack::Unaligned const *>(x));
+  Pack::Lanes const lanes = *reinterpret_cast<Pack::Unaligned const *>(x); // a reference would claim alignment
+  return Pack(lanes);
 }
 KOKKOS_FORCEINLINE_FUNCTION void storePack(double *x, Pack const &p)
 {
@@ -266,6 +267,11 @@ KOKKOS_FORCEINLINE_FUNCTION void storePack(double *x, Pack const &p)
 
 #endif
 
+/// condition ? a : b, lane by lane.
+KOKKOS_INLINE_FUNCTION double select(bool condition, double a, double b)
+{
+  return condition ? a : b;
+}
 KOKKOS_FORCEINLINE_FUNCTION bool both(bool a, bool b)
 {
   return a && b;

@@ -7,6 +7,7 @@
 #include <Harmos_Constrain.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Material.hpp>
+#include <Harmos_PrescribedField.hpp>
 #include <Harmos_Reconstruct.hpp>
 #include <Harmos_Remap.hpp>
 
@@ -154,6 +155,7 @@ struct Deck
   std::vector<int> removal_order;       // fields, -1: void; empty: chosen by the method
   ConstraintOptions constraint;         // without `interaction`; with speed_scale
   RemapOptions remap;
+  PrescribedField prescribed; // with a kind: no mechanics
 
   RunSpec run;
   OutputSpec output;

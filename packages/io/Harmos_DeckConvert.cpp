@@ -161,12 +161,17 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.lagrange.quadratic_viscosity = list.get<double>("quadratic_viscosity");
   deck.lagrange.hourglass_viscosity = list.get<double>("hourglass_viscosity");
   deck.lagrange.subzonal_pressure = list.get<double>("subzonal_pressure");
+  bool const by_compressibility = list.get<std::string>("closure") == "compressibility";
+  check.require(!by_compressibility || deck.kinematics == Kinematics::Single, "numerics/closure",
+                "\"compressibility\" closes mixed cells with one velocity; expected: kinematics single");
+  if (by_compressibility)
+    deck.lagrange.closure = Closure::Compressibility;
 
   ParameterList const &reconstruction = list.sublist("reconstruction");
-  deck.reconstruction.method = reconstruction.get<std::string>("method") == "youngs"
-                                   ? ReconstructionMethod::Youngs
-                                   : ReconstructionMethod::MomentOfFluid;
-  deck.reconstruction.sliver = reconstruction.get<double>("sliver");
+  std::string const method = reconstruction.get<std::string>("method");
+  deck.reconstruction.method = method == "youngs" ? ReconstructionMethod::Youngs : ReconstructionMethod::MomentOfFluid;
+  // Least squares is what moment-of-fluid does with slivers, and here every part is one.
+  deck.reconstruction.sliver = method == "moment of fluid" ? reconstruction.get<double>("sliver") : 1.0;
   convertRemovalOrder(check, reconstruction.get<Teuchos::Array<std::string>>("removal_order"), deck);
 
   ParameterList const &constraint = list.sublist("constraint");
@@ -180,6 +185,60 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.remap.merge_below = remap.get<double>("merge_below");
   deck.remap.close_void_below = remap.get<double>("close_void_below");
   deck.remap.return_kinetic_defect = remap.get<bool>("return_kinetic_defect");
+}
+
+/// What a prescribed field leaves no meaning to is refused.
+void checkPrescribed(DeckChecker const &check, ParameterList const &complete, Deck const &deck)
+{
+  std::string const why = " means nothing with a prescribed_velocity";
+  check.require(deck.kinematics != Kinematics::Lagrangian, "kinematics", "lagrangian" + why + ": it has no remap");
+  check.require(deck.lagrange.gravity[0] == 0.0 && deck.lagrange.gravity[1] == 0.0, "gravity", "it" + why);
+  check.require(deck.lagrange.closure == Closure::EqualStrain, "numerics/closure", "compressibility" + why);
+  check.require(!deck.remap.return_kinetic_defect, "numerics/remap/return_kinetic_defect", "true" + why);
+  for (int side = 0; side < num_boundary_sides; ++side)
+    check.require(complete.sublist("boundaries").sublist(side_name[side]).get<std::string>("type") == "slip wall",
+                  std::string("boundaries/") + side_name[side] + "/type",
+                  "material that moves with a prescribed_velocity stays inside of the mesh; expected: slip wall");
+  for (Interaction const interaction : deck.interaction)
+    check.require(interaction == Interaction::Sliding, "interactions", "tied" + why);
+  for (BodySpec const &body : deck.bodies)
+  {
+    std::string const path = "bodies/" + body.name;
+    check.require(!deck.laws[body.law].rigid, keyPath(path, "material"), "a rigid law" + why);
+    check.require(body.velocity[0] == 0.0 && body.velocity[1] == 0.0, keyPath(path, "velocity"), "it" + why);
+    check.require(body.angular_velocity == 0.0, keyPath(path, "angular_velocity"), "it" + why);
+    check.require(body.density == deck.laws[body.law].law.density0, keyPath(path, "density"),
+                  "with a prescribed_velocity the density is and stays that of the law");
+  }
+}
+
+void convertPrescribed(DeckChecker const &check, ParameterList const &complete, Deck &deck)
+{
+  ParameterList const &list = complete.sublist("prescribed_velocity");
+  std::string const field = list.get<std::string>("field");
+  if (field == "none")
+    return;
+  PrescribedField &prescribed = deck.prescribed;
+  prescribed.period = list.get<double>("period");
+  if (field == "translation")
+  {
+    prescribed.kind = FieldKind::Translation;
+    prescribed.velocity = vectorOf(list, "velocity");
+  }
+  else if (field == "rotation")
+  {
+    prescribed.kind = FieldKind::Rotation;
+    prescribed.centre = vectorOf(list, "center");
+    prescribed.angular_velocity = list.get<double>("angular_velocity");
+  }
+  else
+  {
+    prescribed.kind = field == "vortex" ? FieldKind::Vortex : FieldKind::Deformation;
+    prescribed.speed = list.get<double>("speed");
+    prescribed.corner = vectorOf(list, "corner");
+    prescribed.length = list.get<double>("length");
+  }
+  checkPrescribed(check, complete, deck);
 }
 
 Cadence cadenceOf(ParameterList const &list)
@@ -267,6 +326,7 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   convertBoundaries(check, complete.sublist("boundaries"), deck);
   convertInteractions(check, complete.sublist("interactions"), deck);
   convertNumerics(check, complete.sublist("numerics"), deck);
+  convertPrescribed(check, complete, deck);
   convertRunAndOutput(complete.sublist("run"), complete.sublist("output"), deck);
   check.require(deck.output.xdmf || !deck.output.vtu, "output/vtu",
                 "true without output/xdmf: a restart finds the times of the .vtu files in the HDF5 files; expected: "

@@ -143,6 +143,27 @@ void addBoundaries(ParameterList &boundaries)
   }
 }
 
+void addPrescribedVelocity(ParameterList &list)
+{
+  add(list, "field", std::string("none"), choice({"none", "translation", "rotation", "vortex", "deformation"}),
+      "none: mechanics; else all material moves with a given velocity field, without forces and constraints: vortex: "
+      "one vortex that fills the box; deformation: sixteen vortices of alternating sense");
+  for (char const *field : {"translation", "rotation", "vortex", "deformation"})
+    add(list.sublist(std::string("field = ") + field), "period", 0.0, number(not_negative, "s"),
+        "the velocity varies as cos(pi t / period), so that all is back at t = period; 0: steady");
+  add(list.sublist("field = translation"), "velocity", pair(0.0, 0.0), required(numbers(2, 2, "m/s")), "velocity");
+  ParameterList &rotation = list.sublist("field = rotation");
+  add(rotation, "center", pair(0.0, 0.0), required(numbers(2, 2, "m")), "centre of the rotation");
+  add(rotation, "angular_velocity", 0.0, required(number(any, "rad/s")), "counter-clockwise");
+  for (char const *field : {"vortex", "deformation"})
+  {
+    ParameterList &box = list.sublist(std::string("field = ") + field);
+    add(box, "speed", 1.0, number(positive, "m/s"), "largest speed");
+    add(box, "corner", pair(0.0, 0.0), numbers(2, 2, "m"), "lower left corner of the square box of the field");
+    add(box, "length", 1.0, number(positive, "m"), "side of the box");
+  }
+}
+
 void addStrength(ParameterList &list)
 {
   add(list, "strength", std::string("none"), choice({"none", "elastic", "plastic"}),
@@ -246,15 +267,19 @@ void addNumerics(ParameterList &list)
   add(list, "hourglass_viscosity", lagrange.hourglass_viscosity, number(between(0.0, 0.25)),
       "Flanagan-Belytschko coefficient; 0.25 is critical at Courant 1");
   add(list, "subzonal_pressure", lagrange.subzonal_pressure, number(between(0.0, 1.0)),
-      "kinematics lagrangian: stiffness of cells against becoming wedges, part of the bulk modulus (Caramana-Shashkov)");
-  add(list, "closure", std::string("equal strain"), choice({"equal strain"}),
-      "of mixed cells in `single`: all materials of a cell strain alike");
+      "kinematics lagrangian: stiffness of cells against becoming wedges, part of the bulk modulus "
+      "(Caramana-Shashkov)");
+  add(list, "closure", std::string("equal strain"), choice({"equal strain", "compressibility"}),
+      "of mixed cells in `single`. equal strain: all materials of a cell strain alike; compressibility: they share its "
+      "change of volume in proportion to volume over bulk modulus, void first");
 
   ReconstructionOptions const reconstruction;
   ParameterList &r = list.sublist("reconstruction");
-  add(r, "method", std::string("moment of fluid"), choice({"moment of fluid", "youngs"}), "interface normals");
-  add(r, "sliver", reconstruction.sliver, number(between(0.0, 0.5)),
-      "moment of fluid: below this volume fraction normals come from least squares");
+  add(r, "method", std::string("moment of fluid"), choice({"moment of fluid", "least squares", "youngs"}),
+      "interface normals. moment of fluid: from centroids; least squares: the line that gives the neighbours their "
+      "volume fractions best (LVIRA); youngs: gradient of the volume fraction");
+  add(r.sublist("method = moment of fluid"), "sliver", reconstruction.sliver, number(between(0.0, 0.5)),
+      "below this volume fraction normals come from least squares");
   add(r, "removal_order", Teuchos::Array<std::string>(), rulesOf(KeyType::Names),
       "fixed order in which materials leave a mixed cell: every field once, by its first body, and void (last when "
       "not named). Empty: chosen by the method");
@@ -312,6 +337,7 @@ ParameterList deckSchema()
   addTop(schema);
   addMesh(schema.sublist("mesh"));
   addBoundaries(schema.sublist("boundaries"));
+  addPrescribedVelocity(schema.sublist("prescribed_velocity"));
   addMaterials(schema.sublist("materials"));
   addBodies(schema.sublist("bodies"));
   addInteractions(schema.sublist("interactions"));

@@ -96,6 +96,8 @@ std::string summaryText(Summary const &s)
   object.add("momentum_error", s.momentum_error);
   object.add("energy_error", s.energy_error);
   object.add("unconverged_cycles", s.unconverged_cycles);
+  if (!s.shape_errors.empty())
+    object.raw("shape_errors", nested(s.shape_errors));
   object.raw("warnings", '[' + warnings + ']');
   object.raw("versions", nested(s.versions));
   object.raw("deck", s.deck_json.empty() ? "null" : s.deck_json);

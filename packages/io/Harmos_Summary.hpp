@@ -28,6 +28,7 @@ struct Summary
   double momentum_error = 0.0; // |P - P0 - external impulse + outflow| / sum m |v|
   double energy_error = 0.0;   // of the total
   long long unconverged_cycles = 0;
+  std::vector<std::pair<std::string, double>> shape_errors; // prescribed field: errors against the exact shapes [m^2]
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::string>> versions; // program and libraries
   std::string deck_json;                                     // whole deck with defaults, as JSON text; empty: null

@@ -9,8 +9,16 @@
 namespace Harmos
 {
 
+/// How the materials of a mixed cell of kinematics `single` share the cell's change of volume.
+enum class Closure
+{
+  EqualStrain,
+  Compressibility // closeMixedCells
+};
+
 struct LagrangeOptions
 {
+  Closure closure = Closure::EqualStrain;
   double linear_viscosity = 0.06;
   double quadratic_viscosity = 1.2;
   double hourglass_viscosity = 0.05; // Flanagan-Belytschko, viscous; 0.25 is critical at Courant 1, 0.5 unstable
@@ -136,6 +144,23 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
 TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                          PairState const &state, BoundaryConditions const &boundary, View<Material *> const &materials,
                          LagrangeOptions const &options, double dt, LagrangeWork &work);
+
+/// Compressibility-weighted closure of the mixed cells of kinematics `single`: what makes updatePairs, which strains
+/// all materials of a cell alike, strain each as it should. To be called before it; needs work.half.
+///
+/// The cell's area goes from A to A' = A (1 + theta). Materials with volumes V_m = f_m A and moduli K_m = rho c^2 take
+/// dV_m = V_m eps_m, sum dV_m + dV_void = A' - A (rigid materials keep their part of the cell), where
+///  - with void, eps_m first brings the pressures towards zero (p_m of the sign of theta), then the void takes all
+///  until
+///    it has gone;
+///  - what is left, and all of it without void, is shared as eps_m ~ 1 / K_m, |eps_m| <= max(0.2, |theta|).
+/// sv and f are scaled by (1 + eps_m) / (1 + theta), so that the update leaves sv (1 + eps_m) and the moved regions
+/// fill f A' = V_m (1 + eps_m): the regions must be reconstructed anew for the remap. Energy: each material does its
+/// own work, m de += p m sv (theta - eps_m), the sum of which is taken from all alike by mass: the cell's energy is
+/// kept. Benson, Comput. Methods Appl. Mech. Engrg. 99 (1992) 235-394; Kamm, Shashkov, Fung, Harrison & Canfield, Int.
+/// J. Numer. Meth. Fluids (2010), doi 10.1002/fld.2354.
+void closeMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                     View<Material *> const &materials, double dt, LagrangeWork const &work);
 
 /// Advance the records of the deformable pairs to t^{n+1}, in place, with v_half = work.half and
 /// v_mean = (state.velocity + v_half) / 2:

@@ -10,33 +10,33 @@ namespace Harmos
 namespace
 {
 
+constexpr double corner_cosine = 0.70710678118654752; // cos 45 degrees
+
 /// Gathers the condition of one node from the boundary faces around it, face by face.
 ///
 /// What fixes the velocity goes before what fixes its normal part, and `Fixed` before `Inflow`: a node where an
-/// inflow meets a wall at rest is at rest.
+/// inflow meets a wall at rest is at rest. Normals are gathered in up to two directions, 45 degrees apart or more.
 struct ConditionGather
 {
-  NodeCondition condition;
   bool fixed = false;
   bool inflow = false;
+  Vector2 velocity = {0.0, 0.0}; // of both
+  int directions = 0;
+  Vector2 sum[2] = {{0.0, 0.0}, {0.0, 0.0}}; // of the faces' normals times their lengths
+  double flux[2] = {0.0, 0.0};               // of their normal velocities times their lengths
 
-  KOKKOS_INLINE_FUNCTION void setBoth(Vector2 const &velocity)
-  {
-    condition = NodeCondition();
-    condition.count = 2;
-    condition.value[0] = velocity[0];
-    condition.value[1] = velocity[1];
-  }
-
+  /// \param normal Of the face's length.
   KOKKOS_INLINE_FUNCTION void addNormal(Vector2 const &normal, double value)
   {
-    if (condition.count == 2)
+    double const length = norm(normal);
+    int place = 0;
+    while (place < directions && dot(sum[place], normal) <= corner_cosine * norm(sum[place]) * length)
+      ++place;
+    if (place == 2)
       return;
-    if (condition.count == 1 && Math::fabs(cross(condition.normal[0], normal)) < 1e-6)
-      return;
-    condition.normal[condition.count] = normal;
-    condition.value[condition.count] = value;
-    ++condition.count;
+    directions = Math::max(directions, place + 1);
+    sum[place] += normal;
+    flux[place] += value * length;
   }
 
   KOKKOS_INLINE_FUNCTION void add(Boundary const &boundary, Vector2 const &normal)
@@ -45,24 +45,43 @@ struct ConditionGather
     {
     case BoundaryKind::Fixed:
       fixed = true;
-      setBoth({0.0, 0.0});
       break;
     case BoundaryKind::Inflow:
-      if (fixed || inflow)
+      if (inflow)
         break;
       inflow = true;
-      setBoth(boundary.velocity);
+      velocity = boundary.velocity;
       break;
     case BoundaryKind::SlipWall:
       addNormal(normal, 0.0);
       break;
     case BoundaryKind::Prescribed:
-      addNormal(normal, dot(boundary.velocity, normal));
+      addNormal(normal, dot(boundary.velocity, normalised(normal)));
       break;
     case BoundaryKind::ContactWall:
     case BoundaryKind::Outflow:
       break;
     }
+  }
+
+  KOKKOS_INLINE_FUNCTION NodeCondition condition() const
+  {
+    NodeCondition result;
+    if (fixed || inflow)
+    {
+      result.count = 2;
+      result.value[0] = fixed ? 0.0 : velocity[0];
+      result.value[1] = fixed ? 0.0 : velocity[1];
+      return result;
+    }
+    result.count = directions;
+    for (int i = 0; i < directions; ++i)
+    {
+      double const length = norm(sum[i]);
+      result.normal[i] = (1.0 / length) * sum[i];
+      result.value[i] = flux[i] / length;
+    }
+    return result;
   }
 };
 
@@ -81,10 +100,10 @@ KOKKOS_INLINE_FUNCTION NodeCondition nodeCondition(Mesh const &mesh, View<Bounda
         continue;
       Quadrilateral const q = cellQuadrilateral(mesh, cell);
       Vector2 const along = q[(face + 1) % 4] - q[face];
-      gather.add(boundary(number), normalised(-perpendicular(along)));
+      gather.add(boundary(number), -perpendicular(along));
     }
   }
-  return gather.condition;
+  return gather.condition();
 }
 
 int largestBoundaryNumber(Mesh const &mesh)

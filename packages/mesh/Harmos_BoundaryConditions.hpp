@@ -71,7 +71,9 @@ struct BoundaryConditions
 /// Node conditions from the boundary faces around each node (halo edges are no boundary).
 ///
 /// Slip walls give their face normal, fixed and inflow faces both directions, prescribed faces their normal velocity;
-/// contact walls and outflow give none. Nearly parallel normals (|cross| < 1e-6) count once.
+/// contact walls and outflow give none. Where normals differ by less than 45 degrees the wall is curved: the node keeps
+/// their mean, weighted by the faces' lengths, so that the wall as a whole lets nothing through (v constant: sum of
+/// L v.n = 0), and slides along the mean tangent. A sharper corner fixes it.
 BoundaryConditions buildBoundaryConditions(Mesh const &mesh, View<Boundary *> const &boundary);
 
 } // namespace Harmos

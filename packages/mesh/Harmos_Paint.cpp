@@ -17,7 +17,7 @@ namespace
 std::string shortText(double value)
 {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 
@@ -90,9 +90,11 @@ struct BodyPainter
           continue;
         double const shared = sharedVolume(cell, i, j, present);
         if (shared > allowed)
-          throw std::runtime_error("cell " + std::to_string(global_cell) + ": " + label(bodies[i], i) + " and " +
-                                   label(bodies[j], j) + " overlap by " + shortText(shared / area(cell)) +
-                                   " of it (more than 1e-9), and the later one is not cut from the earlier");
+          throw std::runtime_error(
+              "cell " + std::to_string(global_cell) + ": " + label(bodies[i], i) + " and " + label(bodies[j], j) +
+              " overlap at (" + shortText(0.5 * (of_cell.low[0] + of_cell.high[0])) + ", " +
+              shortText(0.5 * (of_cell.low[1] + of_cell.high[1])) + ") by " + shortText(shared / area(cell)) +
+              " of the cell (more than 1e-9), and the later one is not cut from the earlier");
       }
     return result;
   }
@@ -104,11 +106,67 @@ void checkBodies(std::vector<Body> const &bodies)
   {
     Body const &body = bodies[i];
     if (!(body.density > 0.0) || !(body.specific_volume > 0.0) || body.material < 0)
-      throw std::runtime_error(label(body, static_cast<int>(i)) + ": density " + std::to_string(body.density) +
-                               " and specific volume " + std::to_string(body.specific_volume) +
+      throw std::runtime_error(label(body, static_cast<int>(i)) + ": density " + shortText(body.density) +
+                               " and specific volume " + shortText(body.specific_volume) +
                                " must be positive, material " + std::to_string(body.material) +
                                " must not be negative");
   }
+}
+
+/// The items of PaintedRows, with their cells.
+struct RigidFillings
+{
+  std::vector<int> cell, material;
+  std::vector<double> fraction;
+  std::vector<Vector2> centroid;
+
+  void push(int in_cell, int of_material, double part, Vector2 const &at)
+  {
+    cell.push_back(in_cell);
+    material.push_back(of_material);
+    fraction.push_back(part);
+    centroid.push_back(at);
+  }
+};
+
+/// Every cycle that a body moves: only cells that an outline crosses, or that several shapes share, are clipped.
+RigidFillings fillRigid(CandidateCells const &candidates, std::vector<Shape> const &shapes,
+                        std::vector<Box> const &boxes, std::vector<int> const &materials)
+{
+  auto const cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.cell);
+  auto const corner = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.corner);
+  RigidFillings rows;
+  std::vector<int> present;
+  for (std::size_t c = 0; c < cell.extent(0); ++c)
+  {
+    Quadrilateral q;
+    for (int k = 0; k < 4; ++k)
+      q.push({corner(c, k, 0), corner(c, k, 1)});
+    Box const of_cell = boundingBox(q);
+    present.clear();
+    CellPosition last = CellPosition::Outside;
+    for (int i = 0; i < static_cast<int>(shapes.size()); ++i)
+    {
+      CellPosition const position = boxes[i].meets(of_cell) ? shapes[i].position(q) : CellPosition::Outside;
+      if (position == CellPosition::Outside)
+        continue;
+      present.push_back(i);
+      last = position;
+    }
+    if (present.empty())
+      continue;
+    if (present.size() == 1 && last == CellPosition::Inside)
+    {
+      rows.push(cell(c), materials[present[0]], 1.0, q[0] + moments<1>(q, q[0]).centroid());
+      continue;
+    }
+    std::vector<Part> parts;
+    for (int const i : present)
+      parts.push_back({i, shapes[i].intersectionMoments(q)});
+    for (Filling const &filling : fillingsOf(q, parts, materials))
+      rows.push(cell(c), filling.material, filling.fraction, filling.centroid);
+  }
+  return rows;
 }
 
 } // namespace
@@ -251,18 +309,9 @@ PaintedRows rigidVolumes(Mesh const &mesh, std::vector<Shape> const &shapes, std
   std::vector<Box> boxes;
   for (Shape const &shape : shapes)
     boxes.push_back(shape.boundingBox());
-  auto const parts_of = [&](Quadrilateral const &q, int)
-  {
-    Box const of_cell = boundingBox(q);
-    std::vector<Part> parts;
-    for (int i = 0; i < static_cast<int>(shapes.size()); ++i)
-      if (boxes[i].meets(of_cell))
-        parts.push_back({i, shapes[i].intersectionMoments(q)});
-    return parts;
-  };
-  FillingRows const rows = fillCells(candidateCells(mesh, boxes), materials, parts_of);
+  RigidFillings const rows = fillRigid(candidateCells(mesh, boxes), shapes, boxes, materials);
 
-  std::size_t const count = rows.filling.size();
+  std::size_t const count = rows.cell.size();
   PaintedRows result{offsetsOf(rows.cell, mesh.num_cells), View<int *>("Harmos::rigid::material", count),
                      View<double *>("Harmos::rigid::volume_fraction", count),
                      View<double *[2]>("Harmos::rigid::centroid", count)};
@@ -271,10 +320,10 @@ PaintedRows rigidVolumes(Mesh const &mesh, std::vector<Shape> const &shapes, std
   auto const centroid = Kokkos::create_mirror_view(result.centroid);
   for (std::size_t i = 0; i < count; ++i)
   {
-    material(i) = rows.filling[i].material;
-    fraction(i) = rows.filling[i].fraction;
+    material(i) = rows.material[i];
+    fraction(i) = rows.fraction[i];
     for (int d = 0; d < 2; ++d)
-      centroid(i, d) = rows.filling[i].centroid[d];
+      centroid(i, d) = rows.centroid[i][d];
   }
   Kokkos::deep_copy(result.material, material);
   Kokkos::deep_copy(result.volume_fraction, fraction);

@@ -27,10 +27,22 @@ struct HalfPlanePart
 KOKKOS_INLINE_FUNCTION HalfPlanePart halfPlanePart(Quadrilateral const &quad, Plane2 const &line)
 {
   HalfPlanePart part{0.0, 0.0, {0.0, 0.0}};
+  double distance[4];
+  for (int k = 0; k < 4; ++k)
+    distance[k] = line.distance(quad[k]);
+  double const nearest = Math::min(Math::min(distance[0], distance[1]), Math::min(distance[2], distance[3]));
+  double const farthest = Math::max(Math::max(distance[0], distance[1]), Math::max(distance[2], distance[3]));
+  if (nearest > 0.0)
+    return part;
+  if (farthest <= 0.0)
+  {
+    part.area = area(quad);
+    return part;
+  }
   Vector2 chord[2] = {{0.0, 0.0}, {0.0, 0.0}};
   int crossings = 0;
   Vector2 a = quad[3], previous{0.0, 0.0}; // relative to origin, a point of the result
-  double da = line.distance(a);
+  double da = distance[3];
   Vector2 const origin = quad[0];
   Vector2 first{0.0, 0.0};
   int kept = 0;
@@ -47,7 +59,7 @@ KOKKOS_INLINE_FUNCTION HalfPlanePart halfPlanePart(Quadrilateral const &quad, Pl
   for (int k = 0; k < 4; ++k)
   {
     Vector2 const b = quad[k];
-    double const db = line.distance(b);
+    double const db = distance[k];
     if ((da <= 0.0) != (db <= 0.0))
     {
       Vector2 const x = a + (da / (da - db)) * (b - a);
@@ -75,62 +87,103 @@ struct LineMisfit
   double value, gradient, hessian;
 };
 
+/// A neighbour as the fit sees it.
+struct FitNeighbour
+{
+  Quadrilateral quad; // in the own cell's unit coordinates
+  double inverse_area;
+  double fraction; // of what shall lie inside the line
+};
+
 struct LineFitProblem
 {
+  static constexpr int max_stored = 12; // further neighbours (of irregular nodes) are gathered again for every angle
+
+  ReconstructionField const &field;
+  CellComponents const &components;
   Region const &polygon; // the part of the own cell that is divided
   double inside_volume, outside_volume;
   ComponentSet set; // whose fractions in the neighbours are fitted
   bool set_is_inside;
+  int num_neighbours;
+  FitNeighbour stored[max_stored];
+
+  KOKKOS_INLINE_FUNCTION FitNeighbour gather(int n) const
+  {
+    Rows const &rows = field.mesh.cell_neighbour;
+    int const cell = rows.item(rows.offset(components.cell) + n);
+    FitNeighbour neighbour;
+    neighbour.quad = unitQuadrilateral(field.mesh, components, cell);
+    neighbour.inverse_area = 1.0 / area(neighbour.quad);
+    double const given = setFraction(field, components, set, cell);
+    neighbour.fraction = set_is_inside ? given : 1.0 - given;
+    return neighbour;
+  }
+
+  KOKKOS_INLINE_FUNCTION void store()
+  {
+    Rows const &rows = field.mesh.cell_neighbour;
+    num_neighbours = rows.offset(components.cell + 1) - rows.offset(components.cell);
+    for (int n = 0; n < Math::min(num_neighbours, max_stored); ++n)
+      stored[n] = gather(n);
+  }
 };
 
 /// Turning by dtheta about the middle m of the own chord, which keeps the volume there, moves the chord (middle m_j,
 /// length L_j) of neighbour j so that its inside grows by L_j tau.(m - m_j) dtheta, tau = perpendicular(n).
-KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(ReconstructionField const &field, CellComponents const &components,
-                                             LineFitProblem const &problem, Vector2 const &normal)
+KOKKOS_INLINE_FUNCTION void addMisfit(FitNeighbour const &neighbour, Plane2 const &line, Vector2 const &middle,
+                                      LineMisfit &sum)
 {
-  Division const own = divide(problem.polygon, normal, problem.inside_volume, problem.outside_volume);
-  Vector2 const middle = 0.5 * (own.chord_begin + own.chord_end);
-  Vector2 const along = perpendicular(normal);
-  Rows const &neighbours = field.mesh.cell_neighbour;
-  int const begin = neighbours.offset(components.cell), end = neighbours.offset(components.cell + 1);
+  HalfPlanePart const part = halfPlanePart(neighbour.quad, line);
+  double const residual = part.area * neighbour.inverse_area - neighbour.fraction;
+  double const rate =
+      part.chord_length * dot(perpendicular(line.normal), middle - part.chord_middle) * neighbour.inverse_area;
+  sum.value += residual * residual;
+  sum.gradient += rate * residual;
+  sum.hessian += rate * rate;
+}
+
+KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vector2 const &normal)
+{
+  bool const cut_inside = problem.inside_volume <= problem.outside_volume;
+  LineCut const own = cut_inside ? lineCut(problem.polygon, normal, problem.inside_volume)
+                                 : lineCut(problem.polygon, -normal, problem.outside_volume);
+  Plane2 const line{normal, cut_inside ? own.offset : -own.offset};
+  Vector2 const middle = 0.5 * (own.begin + own.end);
   LineMisfit sum{0.0, 0.0, 0.0};
-  for (int n = begin; n < end; ++n)
-  {
-    int const j = neighbours.item(n);
-    Quadrilateral const quad = unitQuadrilateral(field.mesh, components, j);
-    double const inverse_area = 1.0 / area(quad);
-    HalfPlanePart const part = halfPlanePart(quad, own.line);
-    double const given = setFraction(field, components, problem.set, j);
-    double const residual = part.area * inverse_area - (problem.set_is_inside ? given : 1.0 - given);
-    double const rate = part.chord_length * dot(along, middle - part.chord_middle) * inverse_area;
-    sum.value += residual * residual;
-    sum.gradient += rate * residual;
-    sum.hessian += rate * rate;
-  }
-  double const inverse_count = 1.0 / Math::max(1, end - begin);
+  for (int n = 0; n < Math::min(problem.num_neighbours, LineFitProblem::max_stored); ++n)
+    addMisfit(problem.stored[n], line, middle, sum);
+  for (int n = LineFitProblem::max_stored; n < problem.num_neighbours; ++n)
+    addMisfit(problem.gather(n), line, middle, sum);
+  double const inverse_count = 1.0 / Math::max(1, problem.num_neighbours);
   return {sum.value * inverse_count, sum.gradient * inverse_count, sum.hessian * inverse_count};
 }
 
-/// Gauss-Newton in the angle with step halving; every accepted step lowers the misfit.
-KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(ReconstructionField const &field, CellComponents const &components,
-                                                 LineFitProblem const &problem, Vector2 const &start)
+/// Gauss-Newton in the angle with step halving; every accepted step lowers the misfit. From the second step on the
+/// secant of the gradient replaces the curvature, which lacks the part of the residuals: where no straight line fits,
+/// Gauss-Newton alone creeps.
+KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, Vector2 const &start)
 {
   constexpr int max_iterations = 20, max_halvings = 6;
+  constexpr double least_curvature = 0.1; // of the secant, of Gauss-Newton's: below it the latter is taken
   Vector2 normal = start;
-  LineMisfit now = lineMisfit(field, components, problem, normal);
+  LineMisfit now = lineMisfit(problem, normal);
+  double curvature = now.hessian;
   for (int i = 0; i < max_iterations && now.hessian > 0.0 && now.value > 1e-31; ++i)
   {
-    double step = Math::clamp(-now.gradient / now.hessian, -0.5, 0.5);
+    double step = Math::clamp(-now.gradient / curvature, -0.5, 0.5);
     if (Math::fabs(now.gradient * step) < 1e-13 * now.value)
       break;
     bool lower = false;
-    for (int halving = 0; halving <= max_halvings && !lower; ++halving, step *= 0.5)
+    for (int halving = 0; halving <= max_halvings && !lower; ++halving, step *= lower ? 1.0 : 0.5)
     {
       Vector2 const trial = normalised(Math::cos(step) * normal + Math::sin(step) * perpendicular(normal));
-      LineMisfit const next = lineMisfit(field, components, problem, trial);
+      LineMisfit const next = lineMisfit(problem, trial);
       lower = next.value < now.value;
       if (lower)
       {
+        double const secant = (next.gradient - now.gradient) / step;
+        curvature = secant > least_curvature * next.hessian ? secant : next.hessian;
         now = next;
         normal = trial;
       }
@@ -182,8 +235,9 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
     if (norm(gradient) < 1e-13)
       continue;
     Vector2 const start = (side == 0 ? -1.0 : 1.0) * normalised(gradient);
-    Detail::LineFitProblem const problem{polygon, inside_volume, outside_volume, set, side == 0};
-    LeastSquaresLine const line = Detail::fitAngle(field, components, problem, start);
+    Detail::LineFitProblem problem{field, components, polygon, inside_volume, outside_volume, set, side == 0, 0, {}};
+    problem.store();
+    LeastSquaresLine const line = Detail::fitAngle(problem, start);
     if (line.misfit < best.misfit)
       best = line;
   }

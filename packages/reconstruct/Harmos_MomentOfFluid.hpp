@@ -29,23 +29,39 @@ struct TurningCut
 KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 const &normal, double volume)
 {
   LineCut const cut = lineCut(polygon, normal, volume);
-  Region const part = partBelow(polygon, cut);
-  Moments<1> const m = moments<1>(part, cut.begin);
-  double const length = norm(cut.end - cut.begin);
-  double const actual = m.volume();
-  TurningCut result;
-  result.centroid = actual > 0.0 ? cut.begin + m.centroid() : cut.begin;
-  result.rate = actual > 0.0 ? length * length * length / (12.0 * actual) : 0.0;
+  // Moments about the chord's begin, whose own edges add nothing: once around from the chord's end.
+  double twice_area = 0.0;
+  Vector2 first{0.0, 0.0}, a = cut.end - cut.begin;
+  double const length = norm(a);
+  for (int i = cut.first;; i = polygon.next(i))
+  {
+    Vector2 const b = polygon[i] - cut.begin;
+    double const c = cross(a, b);
+    twice_area += c;
+    first += c * (a + b);
+    a = b;
+    if (i == cut.last)
+      break;
+  }
+  TurningCut result{cut.begin, 0.0};
+  if (twice_area > 0.0)
+  {
+    double const inverse = 1.0 / (3.0 * twice_area);
+    result.centroid += inverse * first;
+    result.rate = 0.5 * length * length * length * inverse;
+  }
   return result;
 }
 
 /// A local minimum of |x(theta) - c|^2 from a given direction. Stationary where g = (x - c).tau = 0, tau along the
-/// chord; g' = -L^3/(12 V) - (x - c).n. Newton's method, kept inside the bracket g(low) > 0 > g(high) by bisection.
+/// chord; g' = -L^3/(12 V) - (x - c).n. Newton's method, kept inside the bracket g(low) > 0 > g(high) by bisection. It
+/// ends with a step whose square is round-off: that one needs no further cut.
 KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vector2 const &start, double volume,
                                                       Vector2 const &reference)
 {
   constexpr int max_iterations = 60;
   constexpr double tolerance = 4e-16; // of the unit cell: the round-off of the centroid
+  constexpr double last_step = 1e-8;
   Vector2 const start_along = perpendicular(start);
   double theta = 0.0, low = 0.0, high = 0.0, last_slope = 1e300;
   bool has_low = false, has_high = false;
@@ -68,7 +84,15 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
     step = Math::clamp(step, -0.5, 0.5);
     double next = theta + step;
     bool const slow = Math::fabs(g) > 0.5 * last_slope;
-    if (has_low && has_high && (slow || (next - low) * (next - high) >= 0.0))
+    bool const bisect = has_low && has_high && (slow || (next - low) * (next - high) >= 0.0);
+    if (curvature > 0.0 && !bisect && Math::fabs(step) <= last_step)
+    {
+      Vector2 const along = perpendicular(line.normal);
+      line.centroid -= (cut.rate * step) * along;
+      line.normal = Math::cos(next) * start + Math::sin(next) * start_along;
+      break;
+    }
+    if (bisect)
       next = 0.5 * (low + high);
     last_slope = Math::fabs(g);
     if (Math::fabs(next - theta) <= 1e-16)

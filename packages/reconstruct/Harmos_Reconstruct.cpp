@@ -16,6 +16,7 @@ struct CellStatus
 {
   double volume_error; // of the cell
   bool failed, greedy;
+  int material; // with the largest error; -1: none
 };
 
 /// Positions in which components are removed: as listed, then by material, void last.
@@ -53,7 +54,7 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
 KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, RemovalPlan const &plan,
                                         FilledRegions const &regions)
 {
-  CellStatus status{0.0, false, false};
+  CellStatus status{0.0, false, false, -1};
   int const first = regions.cell_region(components.cell);
   Region polygon = components.polygon;
   ComponentSet rest = components.all();
@@ -69,7 +70,11 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
       polygon = division.outside;
     }
     double const error = Math::fabs(area(part) - components.volume[k]);
-    status.volume_error = Math::max(status.volume_error, error);
+    if (!(error <= status.volume_error))
+    {
+      status.volume_error = error;
+      status.material = components.material[k];
+    }
     status.failed = status.failed || !(error <= volume_tolerance);
     if (components.material[k] == void_material)
       continue;
@@ -84,7 +89,7 @@ KOKKOS_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, Rec
                                            FilledRegions const &regions, int cell)
 {
   if (componentCount(field, cell) > max_components)
-    return {1.0, true, false};
+    return {1.0, true, false, -1};
   bool const by_moments = options.method == ReconstructionMethod::MomentOfFluid;
   CellComponents const components = cellComponents(field, cell, by_moments);
   CellStatus status = writeRegions(components, removalPlan(field, components, options), regions);
@@ -96,24 +101,27 @@ KOKKOS_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, Rec
 FilledRegions listMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs)
 {
   FilledRegions regions;
-  regions.cell_region = View<int *>("Harmos::reconstruct::cell_region", mesh.num_cells);
+  auto const unset = [](char const *label, int size)
+  { return View<int *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size); };
+  regions.cell_region = unset("Harmos::reconstruct::cell_region", mesh.num_cells);
+  View<int *> const listed = unset("Harmos::reconstruct::listed_cell", mesh.num_cells); // its first part is used
   View<int *> const cell_region = regions.cell_region;
   View<int *> const kind = pairs.cell_kind;
   Kokkos::parallel_scan(
-      "Harmos::reconstruct::countMixedCells", RangePolicy(0, mesh.num_cells),
+      "Harmos::reconstruct::listMixedCells", RangePolicy(0, mesh.num_cells),
       KOKKOS_LAMBDA(int const cell, int &count, bool const final) {
+        bool const mixed = kind(cell) == MixedCell;
         if (final)
-          cell_region(cell) = kind(cell) == MixedCell ? count : -1;
-        count += kind(cell) == MixedCell ? 1 : 0;
+        {
+          cell_region(cell) = -1;
+          if (mixed)
+            listed(count) = cell;
+        }
+        count += mixed ? 1 : 0;
       },
       regions.num_mixed_cells);
-  regions.mixed_cell = View<int *>("Harmos::reconstruct::mixed_cell", regions.num_mixed_cells);
+  regions.mixed_cell = Kokkos::subview(listed, std::make_pair(0, regions.num_mixed_cells));
   View<int *> const mixed_cell = regions.mixed_cell;
-  Kokkos::parallel_for(
-      "Harmos::reconstruct::listMixedCells", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int const cell) {
-        if (cell_region(cell) >= 0)
-          mixed_cell(cell_region(cell)) = cell;
-      });
   int num_regions = 0;
   View<int *> const offset = pairs.offset;
   Kokkos::parallel_scan(
@@ -156,12 +164,15 @@ void addReport(Mesh const &mesh, View<int *> const &mixed_cell, View<CellStatus 
     int first = 0;
     Kokkos::parallel_reduce(
         "Harmos::reconstruct::firstFailedCell", RangePolicy(0, num_mixed),
-        KOKKOS_LAMBDA(int const i, int &cell) {
+        KOKKOS_LAMBDA(int const i, int &least) {
           if (depth(mixed_cell(i)) == 0 && status(i).failed)
-            cell = Math::min(cell, mixed_cell(i));
+            least = Math::min(least, i);
         },
         Kokkos::Min<int>(first));
-    report.first_failed_cell = first;
+    CellStatus failed;
+    Kokkos::deep_copy(failed, Kokkos::subview(status, first));
+    Kokkos::deep_copy(report.first_failed_cell, Kokkos::subview(mixed_cell, first));
+    report.first_failed_material = failed.material;
   }
   report.failures += failures;
   report.greedy_cells += greedy;

@@ -28,6 +28,7 @@ struct ReconstructionReport
 {
   long long failures = 0;      // owned cells whose root search did not reach the volume tolerance (1e-12 of the cell)
   int first_failed_cell = -1;  // local number
+  int first_failed_material = -1; // of the largest error there; -1: the void, or too many components
   double largest_volume_error = 0.0; // of the cell, owned cells
   long long greedy_cells = 0;  // owned cells with more than five components, ordered greedily
 };

@@ -14,22 +14,33 @@ namespace
 
 using namespace RemapDetail;
 
+/// Forget what belongs to another mesh.
+void keepMesh(Mesh const &mesh, Kept &kept)
+{
+  if (kept.face_neighbour.data() == mesh.face_neighbour.data())
+    return;
+  kept.face_neighbour = mesh.face_neighbour;
+  kept.window = {};
+  kept.classes = {};
+  kept.links = {};
+}
+
 /// The classes of the cells: as in the last cycle where nothing that they depend on has changed.
 Classes const &keepClasses(Input const &in, Kept &kept)
 {
-  bool const same = in.rigid.offset.extent(0) == 0 && kept.face_neighbour.data() == in.mesh.face_neighbour.data() &&
-                    kept.pairs.offset.data() == in.pairs.offset.data() &&
-                    kept.pairs.material.data() == in.pairs.material.data() &&
-                    kept.pairs.cell_kind.data() == in.pairs.cell_kind.data() &&
-                    kept.conditions.boundary.data() == in.conditions.boundary.data() &&
-                    kept.materials.data() == in.materials.data() && kept.classes.flags.extent(0) > 0;
-  if (!same)
-  {
+  bool const same_scene = kept.conditions.boundary.data() == in.conditions.boundary.data() &&
+                          kept.conditions.node_index.data() == in.conditions.node_index.data() &&
+                          kept.materials.data() == in.materials.data() && kept.classes.flags.extent(0) > 0;
+  bool const same_pairs = in.rigid.offset.extent(0) == 0 && kept.pairs.offset.data() == in.pairs.offset.data() &&
+                          kept.pairs.material.data() == in.pairs.material.data() &&
+                          kept.pairs.cell_kind.data() == in.pairs.cell_kind.data();
+  if (!same_scene)
     kept.classes = classify(in);
-    kept.pairs = in.pairs;
-    kept.conditions = in.conditions;
-    kept.materials = in.materials;
-  }
+  else if (!same_pairs)
+    updateClasses(in, kept.classes);
+  kept.pairs = in.pairs;
+  kept.conditions = in.conditions;
+  kept.materials = in.materials;
   return kept.classes;
 }
 
@@ -87,21 +98,17 @@ double otherKineticEnergy(Input const &in, Classes const &classes)
 }
 
 /// Stage 2: the interface cells.
-Acceptors intersectInterfaceCells(Input const &in, Classes const &classes, StageState const &stage,
-                                  Bookings const &bookings)
+void intersectInterfaceCells(Input const &in, Classes const &classes, StageState const &stage, Kept &kept)
 {
-  Donors const donors = moveDonors(in, classes);
-  donorPolynomials(in, classes, stage, donors);
-  Overlays const overlays = intersect(in, classes, donors);
-  Acceptors const acceptors = findCandidates(in, classes, donors, overlays, bookings);
-  Residues const residues = findResidues(in, classes, stage, donors, overlays, acceptors, bookings);
-  accumulate(in, classes, donors, overlays, residues, acceptors, bookings);
-  mergeFragments(in, classes, acceptors, bookings);
-  finish(in, classes, stage, acceptors, bookings);
-  return acceptors;
+  grow(kept.bookings, "bookings", classes.num_interface);
+  moveDonors(in, classes, stage, kept.donors);
+  intersect(in, classes, stage, kept.donors, kept.overlays, kept.bookings);
+  if (accumulate(in, classes, kept.donors, kept.overlays, kept.acceptors, kept.bookings) > 0)
+    mergeFragments(in, classes, kept.acceptors, kept.bookings);
+  finish(in, classes, stage, kept.acceptors, kept.bookings);
 }
 
-int firstFailedCell(Classes const &classes, Bookings const &bookings)
+void nameFirstFailure(Classes const &classes, Bookings const &bookings, RemapReport &report)
 {
   int first = classes.num_interface;
   Kokkos::parallel_reduce(
@@ -111,28 +118,44 @@ int firstFailedCell(Classes const &classes, Bookings const &bookings)
           least = i;
       },
       Kokkos::Min<int>(first));
-  auto const cell = Kokkos::subview(classes.interface_cell, first);
-  int host_cell = -1;
-  Kokkos::deep_copy(host_cell, cell);
-  return host_cell;
+  double material = 0.0;
+  Kokkos::deep_copy(report.first_failed_cell, Kokkos::subview(classes.interface_cell, first));
+  Kokkos::deep_copy(material, Kokkos::subview(bookings, first, static_cast<int>(BookFailedMaterial)));
+  report.first_failed_material = static_cast<int>(material) - 1;
 }
+
+/// Sums over the interface cells, column by column.
+struct BookingSums
+{
+  using value_type = double[];
+  unsigned const value_count = num_bookings;
+  Bookings bookings;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i, value_type sum) const
+  {
+    for (int c = 0; c < num_bookings; ++c)
+      sum[c] += bookings(i, c);
+  }
+};
 
 void addBookings(Classes const &classes, Bookings const &bookings, RemapReport &report, double &out_kinetic)
 {
   double sum[num_bookings];
-  for (int c = 0; c < num_bookings; ++c)
-    sum[c] = sumColumn(bookings, c);
+  BookingSums sums;
+  sums.bookings = bookings;
+  Kokkos::parallel_reduce("Harmos::remap::addBookings", RangePolicy(0, classes.num_interface), sums, sum);
   report.overlap_volume += sum[BookOverlap];
   report.void_volume += sum[BookVoid];
   report.closed_volume += sum[BookClosed];
   report.merged += static_cast<long long>(sum[BookMerged]);
-  report.outflow_mass += sum[BookOutMass];
-  report.outflow_energy += sum[BookOutKinetic] + sum[BookOutEnergy];
-  report.outflow_momentum += Vector2{sum[BookOutMomentumX], sum[BookOutMomentumY]};
-  out_kinetic = sum[BookOutKinetic];
+  report.outflow_mass += sum[BookOutMass] - sum[BookInMass];
+  out_kinetic = sum[BookOutKinetic] - sum[BookInKinetic];
+  report.outflow_energy += out_kinetic + sum[BookOutEnergy] - sum[BookInEnergy];
+  report.outflow_momentum +=
+      Vector2{sum[BookOutMomentumX] - sum[BookInMomentumX], sum[BookOutMomentumY] - sum[BookInMomentumY]};
   long long const failures = static_cast<long long>(sum[BookFailures]);
   if (failures > 0 && report.failures == 0)
-    report.first_failed_cell = firstFailedCell(classes, bookings);
+    nameFirstFailure(classes, bookings, report);
   report.failures += failures;
 }
 
@@ -149,27 +172,25 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
   if (kinematics == Kinematics::Lagrangian)
     throw std::runtime_error("remap: lagrangian kinematics has no remap");
   ScopedRegion const region("Harmos::remap");
-  Input const in{mesh, pairs, dof_nodes, state, regions, conditions, materials, half, dt, rigid, options};
   if (!work.kept)
     work.kept = std::make_shared<Kept>();
   Kept &kept = *work.kept;
-  Classes const classes = keepClasses(in, kept);
-  if (kept.face_neighbour.data() != mesh.face_neighbour.data())
-  {
-    kept.face_neighbour = mesh.face_neighbour;
-    kept.window = {};
-  }
+  keepMesh(mesh, kept);
+  Input in{mesh, pairs, dof_nodes, state, regions, conditions, materials, half, dt, rigid, options, {}};
+  Classes const &classes = keepClasses(in, kept);
+  if (classes.num_interface > 0 && kept.links.link.extent(0) == 0)
+    kept.links = linkNeighbours(mesh);
+  in.links = kept.links;
   SweptSums sums;
   StageState const stage = sweepPureCells(in, classes, kept, sums);
   sums.kinetic_before += otherKineticEnergy(in, classes);
 
-  Acceptors acceptors;
+  Acceptors const &acceptors = kept.acceptors;
   double out_kinetic = 0.0;
   if (classes.num_interface > 0)
   {
-    Bookings const bookings("Harmos::remap::bookings", classes.num_interface);
-    acceptors = intersectInterfaceCells(in, classes, stage, bookings);
-    addBookings(classes, bookings, report, out_kinetic);
+    intersectInterfaceCells(in, classes, stage, kept);
+    addBookings(classes, kept.bookings, report, out_kinetic);
   }
   Rebuilt rebuilt = rebuild(in, kinematics, classes, stage, acceptors);
   rebuilt.result.state.velocity = stage.velocity;

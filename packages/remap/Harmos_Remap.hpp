@@ -33,7 +33,8 @@ struct RemapReport
                           0.0}; // by node conditions on the bodies when the remapped velocities are projected [N s/m]
   double kinetic_loss = 0.0;    // before - after - outflow, less what became heat
   long long failures = 0;       // owned donors whose overlays do not add up to 1e-10 of their volume
-  int first_failed_cell = -1;
+  int first_failed_cell = -1;   // with the material of its first such donor; -1: the cell gets too many materials
+  int first_failed_material = -1;
 };
 
 /// What the remap makes: the next cycle's pairs, dof nodes and state.
@@ -79,8 +80,8 @@ struct RemapWork
 ///                    from these rows (mass density0 * volume) and their dof velocities are zero.
 /// \param report      Sums of owned cells, added to what it holds.
 /// \return Pairs, dof nodes and state of time n+1, right on owned cells and on the nodes around them where the input is
-///         right to depth 6 (5 without merging). Where no cell changes its set of materials, rows and dof nodes are
-///         shared with the input.
+///         right to depth 7 (5 without merging; doc/decisions/0003). Where no cell changes its set of materials, rows
+///         and dof nodes are shared with the input.
 ///
 /// Swept fluxes: Margolin & Shashkov, J. Comput. Phys. 184 (2003) 266-298; intersection: Dukowicz & Kodis, SIAM J. Sci.
 /// Stat. Comput. 8 (1987) 305-321; half-index shift: Benson, Comput. Methods Appl. Mech. Engrg. 99 (1992) 235-394.

@@ -79,6 +79,8 @@ def test_version_help_schema_and_check():
         good = program("check", BALL, cwd=scratch)
         assert good.returncode == 0 and "good" in good.stdout
         assert program("check", BALL, "--set", "run/end_tme=1", cwd=scratch).returncode == 2
+        overlap = program("check", BALL, "--set", "bodies/ball/center=[0.9, 0.5]", cwd=scratch)
+        assert overlap.returncode == 2 and "(plate) and body" in overlap.stderr and "overlap at (" in overlap.stderr, overlap.stderr
         assert not list(pathlib.Path(scratch).iterdir())
 
 

@@ -57,7 +57,7 @@ void rows(benchmark::State &state)
   BodyTable const bodies = buildBodyTable({}, 2);
   for (auto _ : state)
   {
-    SegmentBins const bins = binSegments(scene.mesh, s, serialExchange());
+    SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
     buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins), bins, bodies,
                      scene.options);
   }

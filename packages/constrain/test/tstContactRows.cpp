@@ -15,7 +15,7 @@ namespace
 std::vector<ContactRow> rowsOf(TinyScene const &scene)
 {
   InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions);
-  SegmentBins const bins = binSegments(scene.mesh, s, serialExchange());
+  SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
   BodyTable const bodies = buildBodyTable({}, static_cast<int>(scene.options.interaction.extent(0)));
   ContactRows const rows = buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins),
                                             bins, bodies, scene.options);

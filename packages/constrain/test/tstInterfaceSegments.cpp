@@ -21,7 +21,7 @@ std::vector<InterfaceSegment> segmentsOf(TinyScene const &scene)
 std::vector<RayHit> hitsOf(TinyScene const &scene)
 {
   InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions);
-  auto const hit = castRays(scene.mesh, s, binSegments(scene.mesh, s, serialExchange()));
+  auto const hit = castRays(scene.mesh, s, binSegments(s, largestSegment(scene.mesh, s)));
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hit);
   return std::vector<RayHit>(host.data(), host.data() + s.count);
 }
@@ -86,6 +86,23 @@ TEST(InterfaceSegments, edgeThatFacesTwoMaterials_isSplit)
   ASSERT_EQ(lengths.size(), 2u);
   EXPECT_NEAR(lengths[0] + lengths[1], 1.0, 1e-14);
   EXPECT_NEAR(std::min(lengths[0], lengths[1]), 0.4, 1e-14);
+}
+
+// Five strips with gaps in one cell: more segments than the room that is first made for a cell.
+TEST(InterfaceSegments, cellOfManySegments_keepsThemAll)
+{
+  std::vector<Body> strips;
+  for (int m = 0; m < 5; ++m)
+    strips.push_back(boxBody(m, 0, 0.2 * m + 0.05, 1, 0.2 * m + 0.15));
+  TinyScene const scene(rectilinearMesh(uniform(1, 1), uniform(1, 1)), strips, 5, open_box);
+  auto const s = segmentsOf(scene);
+  ASSERT_EQ(s.size(), 10u);
+  for (std::size_t i = 0; i < s.size(); ++i)
+  {
+    EXPECT_EQ(s[i].number, static_cast<int>(i));
+    EXPECT_EQ(s[i].material, static_cast<int>(i / 2));
+    EXPECT_NEAR(s[i].length, 1.0, 1e-14);
+  }
 }
 
 TEST(InterfaceSegments, contactWall_isASegmentThatFacesIntoTheDomain)

@@ -13,8 +13,10 @@ namespace
 
 Vector2 fit(std::vector<FitSample> const &sample)
 {
-  std::vector<double> omega(sample.size());
-  return fitNormal(sample.data(), omega.data(), static_cast<int>(sample.size()), {1.0, 0.0});
+  FitSamples samples;
+  for (FitSample const &s : sample)
+    EXPECT_TRUE(samples.push(s));
+  return fitNormal(samples, {1.0, 0.0});
 }
 
 FitSample sampleAt(Vector2 const &x, Vector2 const &n, double length, int side)

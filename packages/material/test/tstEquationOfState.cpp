@@ -138,8 +138,8 @@ TEST(EquationOfState, TensionLimit_cutsThePressureOffAndNothingElse)
   EXPECT_EQ(equationOfState(limited, mild, 0.0).pressure, equationOfState(free, mild, 0.0).pressure);
   EXPECT_LT(equationOfState(free, strong, 0.0).pressure, -5e9);
   EXPECT_EQ(equationOfState(limited, strong, 0.0).pressure, -1.2e9);
-  EXPECT_EQ(equationOfState(limited, strong, 0.0).sound_speed_squared,
-            equationOfState(free, strong, 0.0).sound_speed_squared);
+  EXPECT_DOUBLE_EQ(equationOfState(limited, strong, 0.0).sound_speed_squared,
+                   equationOfState(free, strong, 0.0).sound_speed_squared);
 }
 
 TEST(EquationOfState, StiffenedWithoutGruneisen_isLinearInDensity)

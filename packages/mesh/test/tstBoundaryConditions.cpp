@@ -131,6 +131,49 @@ TEST(BuildBoundaryConditions, slipWallsTurnedBy30Degrees_normalLeavesTheDomain)
   EXPECT_NEAR(dot(conditions[1].apply({1.0, 2.0}), {s, -c}), 0.0, 1e-15);
 }
 
+//  3---4---5     the lower side bends at node 1
+//  |   |   |
+//  0---+---2
+//      1
+Mesh bentFloor(double bend)
+{
+  HostMesh whole = rectilinearMesh({0, 1, 3}, {0, 6});
+  for (auto &x : whole.node)
+    if (x[0] > 1.0 && x[1] == 0.0)
+      x[1] = 2.0 * std::tan(bend);
+  return buildMesh(whole);
+}
+
+TEST(BuildBoundaryConditions, gentlyBentWall_nodeSlidesAlongTheMeanTangentAndTheWallLetsNothingThrough)
+{
+  double const bend = Math::pi / 9.0;
+  auto const c = conditionsOf(bentFloor(bend), std::vector<Boundary>(4));
+  EXPECT_EQ(c[1].count, 1);
+  Vector2 const v = c[1].apply({3.0, 0.0});
+  EXPECT_GT(v[0], 2.0);
+  // Faces of lengths 1 and 2 / cos, normals (0, -1) and (sin, -cos): the velocity carries nothing through both.
+  EXPECT_NEAR(-v[1] + 2.0 / std::cos(bend) * (std::sin(bend) * v[0] - std::cos(bend) * v[1]), 0.0, 1e-14);
+  EXPECT_EQ(c[0].count, 2);
+  EXPECT_EQ(c[2].count, 2);
+}
+
+TEST(BuildBoundaryConditions, sharplyBentWall_fixesTheNode)
+{
+  EXPECT_EQ(conditionsOf(bentFloor(0.26 * Math::pi), std::vector<Boundary>(4))[1].count, 2);
+  EXPECT_EQ(conditionsOf(bentFloor(0.24 * Math::pi), std::vector<Boundary>(4))[1].count, 1);
+}
+
+TEST(BuildBoundaryConditions, prescribedVelocityOfABentSide_isThatOfTheWholeSide)
+{
+  double const bend = Math::pi / 9.0;
+  auto const c =
+      conditionsOf(bentFloor(bend), {ofKind(BoundaryKind::SlipWall), ofKind(BoundaryKind::SlipWall),
+                                     ofKind(BoundaryKind::Prescribed, {0.0, -2.0}), ofKind(BoundaryKind::SlipWall)});
+  Vector2 const v = c[1].apply({0.0, -2.0});
+  EXPECT_NEAR(v[0], 0.0, 1e-15);
+  EXPECT_NEAR(v[1], -2.0, 1e-15);
+}
+
 TEST(BuildBoundaryConditions, edgeOfTheHalo_isNoBoundary)
 {
   HostMesh const whole = rectilinearMesh({0, 1, 2, 3, 4}, {0, 1});

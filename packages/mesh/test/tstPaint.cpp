@@ -169,6 +169,7 @@ TEST(Paint, bodiesThatOverlap_areNamed)
     EXPECT_NE(std::string::npos, what.find("cell 19:")) << what; // column 3, row 2
     EXPECT_NE(std::string::npos, what.find("left")) << what;
     EXPECT_NE(std::string::npos, what.find("right")) << what;
+    EXPECT_NE(std::string::npos, what.find("at (0.4375, 0.3125)")) << what;
   }
   right.cut_from_earlier = true;
   Painting const painting = paint(mesh, {left, right});

@@ -2,6 +2,7 @@
 #ifndef HARMOS_ACCEPTORS_HPP
 #define HARMOS_ACCEPTORS_HPP
 
+#include <detail/Harmos_OverlayMoments.hpp>
 #include <detail/Harmos_Overlays.hpp>
 
 namespace Harmos
@@ -9,76 +10,33 @@ namespace Harmos
 namespace RemapDetail
 {
 
-/// Sums that a candidate collects: the integrals of num_stage_fields, then volume and first moments (relative to the
-/// cell's corner 0).
-enum CandidateSum : int
-{
-  VolumeSum = num_stage_fields,
-  FirstMomentX,
-  FirstMomentY,
-  num_candidate_sums
-};
+constexpr int most_candidates = 2 * max_components; // of a cell
 
-/// Candidates for the new pairs of the interface cells, materials ascending.
+/// Candidates for the new pairs of the interface cells, materials ascending: begin(i) .. end(i) - 1 of cell i.
 struct Acceptors
 {
-  int num = 0;
-  View<int *> offset;                     // num_interface + 1
-  View<int *> material;                   // num
-  View<int *> verbatim;                   // num_interface: 1 where nothing around moves: the cell keeps its bits
-  View<int *> merge_to;                   // num: candidate that takes this fragment, or -1
-  View<double *[num_candidate_sums]> sum; // num
-  View<double *[num_pair_fields]> record; // num: new records
-  View<double *> kinetic;                 // num: kinetic energy per mass that the new pair should have
-  View<double *[2]> centroid;             // num
-  View<double *[8]> corner_velocity;      // num
+  int room = 3;         // of every cell; grows where it is not enough
+  View<int *> count;    // num_interface
+  View<int *> material; // candidates
+  View<int *> verbatim; // num_interface: 1 where nothing around moves: the cell keeps its bits
+  View<int *> merge_to; // candidate that takes this fragment, or -1
+  View<double *[num_overlay_sums]> sum;
+  View<double *[num_pair_fields]> record; // new records
+  View<double *> kinetic;                 // kinetic energy per mass that the new pair should have
+  View<double *[2]> centroid;
+  View<double *[8]> corner_velocity;
+
+  KOKKOS_INLINE_FUNCTION int begin(int index) const { return index * room; }
+  KOKKOS_INLINE_FUNCTION int end(int index) const { return index * room + count(index); }
 
   KOKKOS_INLINE_FUNCTION int find(int index, int of_material) const
   {
-    for (int c = offset(index); c < offset(index + 1); ++c)
+    for (int c = begin(index); c < end(index); ++c)
       if (material(c) == of_material)
         return c;
     return -1;
   }
 };
-
-/// What owned interface cells book, one column each.
-enum Booking : int
-{
-  BookOverlap = 0,
-  BookVoid,
-  BookClosed,
-  BookMerged,
-  BookFailures,
-  BookOutMass,
-  BookOutKinetic,
-  BookOutEnergy,
-  BookOutMomentumX,
-  BookOutMomentumY,
-  num_bookings
-};
-
-using Bookings = View<double *[num_bookings]>;
-
-/// Visits the cells around `cell` and itself in ascending order: a gather that adds in this order gives the same bits
-/// on any number of ranks.
-template <class Visitor>
-KOKKOS_INLINE_FUNCTION void forCellAndNeighbours(Mesh const &mesh, int cell, Visitor const &visit)
-{
-  bool self = false;
-  for (int j = mesh.cell_neighbour.offset(cell); j < mesh.cell_neighbour.offset(cell + 1); ++j)
-  {
-    int const neighbour = mesh.cell_neighbour.item(j);
-    if (!self && neighbour > cell)
-    {
-      visit(cell);
-      self = true;
-    }
-    visit(neighbour);
-  }
-  if (!self)
-    visit(cell);
-}
 
 /// The material that enters through an inflow face in dt: the face a -> b swept inwards.
 KOKKOS_INLINE_FUNCTION bool inflowQuadrilateral(Input const &in, int cell, int face, Boundary &boundary,
@@ -99,25 +57,28 @@ KOKKOS_INLINE_FUNCTION bool inflowQuadrilateral(Input const &in, int cell, int f
   return boundary.material >= 0 && cross(b - a, u) > 0.0;
 }
 
-/// Materials of every interface cell after the remap: those of its overlays, of what flows in, of rigid bodies.
-Acceptors findCandidates(Input const &in, Classes const &classes, Donors const &donors, Overlays const &overlays,
-                         Bookings const &bookings);
-
-/// Where the donors' residues go, and what leaves through outflow boundaries (booked).
-struct Residues
+/// Moments about the acceptor's corner 0 of what comes in.
+KOKKOS_INLINE_FUNCTION Moments<2> inflowMoments(Mesh const &mesh, int acceptor, Quadrilateral const &q)
 {
-  View<int *> target;                        // donors.num: candidate, or -1
-  View<double *[num_stage_fields]> integral; // donors.num
-};
+  Vector2 const origin = acceptorOrigin(mesh, acceptor);
+  double x[4], y[4];
+  for (int k = 0; k < 4; ++k)
+  {
+    x[k] = q[k][0] - origin[0];
+    y[k] = q[k][1] - origin[1];
+  }
+  bool whole;
+  Moments<2> const m = momentsInside<4>(4, x, y, windowAbout(mesh, acceptor, origin), whole);
+  return whole ? momentsOfVertices(4, x, y) : m;
+}
 
-Residues findResidues(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors,
-                      Overlays const &overlays, Acceptors const &acceptors, Bookings const &bookings);
+/// Find the materials of every interface cell after the remap, those of its overlays, of what flows in, of rigid
+/// bodies, and sum the overlays, residues and inflows of each, in ascending order of donors. \return The number of
+/// fragments (below merge_below).
+int accumulate(Input const &in, Classes const &classes, Donors const &donors, Overlays const &overlays,
+               Acceptors &acceptors, Bookings const &bookings);
 
-/// Sum the overlays, residues and inflows of every candidate, in ascending order of donors.
-void accumulate(Input const &in, Classes const &classes, Donors const &donors, Overlays const &overlays,
-                Residues const &residues, Acceptors const &acceptors, Bookings const &bookings);
-
-/// Fragments below merge_below move to the same-material neighbour with the largest volume fraction.
+/// Fragments move to the same-material neighbour with the largest volume fraction.
 void mergeFragments(Input const &in, Classes const &classes, Acceptors const &acceptors, Bookings const &bookings);
 
 /// Volume fractions (overlap and void policies), centroids, records and corner velocities of the candidates.

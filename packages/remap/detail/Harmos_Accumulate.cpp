@@ -9,73 +9,139 @@ namespace RemapDetail
 namespace
 {
 
+KOKKOS_INLINE_FUNCTION bool isFragment(Input const &in, Acceptors const &acceptors, int candidate, double cell_area)
+{
+  return !in.isRigid(acceptors.material(candidate)) &&
+         acceptors.sum(candidate, VolumeSum) < in.options.merge_below * cell_area;
+}
+
 struct AccumulateFunctor
 {
   Input in;
   Classes classes;
   Donors donors;
   Overlays overlays;
-  Residues residues;
   Acceptors acceptors;
   Bookings bookings;
 
+  /// The candidates of a cell at work.
+  struct Row
+  {
+    int index, first, count;
+    bool full; // and one more wanted
+  };
+
+  KOKKOS_INLINE_FUNCTION void copyCandidate(int from, int to) const
+  {
+    acceptors.material(to) = acceptors.material(from);
+    for (int f = 0; f < num_overlay_sums; ++f)
+      acceptors.sum(to, f) = acceptors.sum(from, f);
+  }
+
+  /// The candidate of a material, which is made where there is none; -1: no room.
+  KOKKOS_INLINE_FUNCTION int candidateOf(Row &row, int material) const
+  {
+    int place = row.first;
+    int const end = row.first + row.count;
+    while (place < end && acceptors.material(place) < material)
+      ++place;
+    if (place < end && acceptors.material(place) == material)
+      return place;
+    if (row.count == acceptors.room)
+    {
+      row.full = true;
+      return -1;
+    }
+    for (int c = end; c > place; --c)
+      copyCandidate(c - 1, c);
+    ++row.count;
+    acceptors.material(place) = material;
+    for (int f = 0; f < num_overlay_sums; ++f)
+      acceptors.sum(place, f) = 0.0;
+    return place;
+  }
+
   /// Add mass-weighted integrals of a donor whose corners are `rotation` ahead of the acceptor's.
-  KOKKOS_INLINE_FUNCTION void add(int candidate, double const part[num_stage_fields], int rotation) const
+  KOKKOS_INLINE_FUNCTION void add(int candidate, double const *part, int rotation) const
   {
-    for (int f = 0; f < first_corner_field; ++f)
-      acceptors.sum(candidate, f) += part[f];
-    for (int k = 0; k < 4; ++k)
-      for (int d = 0; d < 2; ++d)
-        acceptors.sum(candidate, first_corner_field + 2 * k + d) +=
-            part[first_corner_field + 2 * ((k + rotation) % 4) + d];
+    double *sum = &acceptors.sum(candidate, 0);
+    StageFields total = loadStageFields(sum);
+    total += {FieldPack(part), rotatedCorners(part + first_corner_field, rotation)};
+    total.store(sum);
   }
 
-  KOKKOS_INLINE_FUNCTION void addVolume(int candidate, Moments<2> const &m) const
+  KOKKOS_INLINE_FUNCTION void addOverlay(int candidate, double const *part, int rotation) const
   {
-    acceptors.sum(candidate, VolumeSum) += m.volume();
-    acceptors.sum(candidate, FirstMomentX) += m.first(0);
-    acceptors.sum(candidate, FirstMomentY) += m.first(1);
+    add(candidate, part, rotation);
+    double *sum = &acceptors.sum(candidate, VolumeSum);
+    (FieldPack(sum) + FieldPack(part + VolumeSum)).store(sum);
   }
 
-  KOKKOS_INLINE_FUNCTION void addDonor(int index, int acceptor, int cell, int donor, int rotation) const
+  KOKKOS_INLINE_FUNCTION bool flowsIn(int cell, int acceptor, int face, Boundary &boundary, Moments<2> &m) const
   {
-    int const slot = overlays.find(in.mesh, donor, cell, acceptor);
-    if (slot >= 0 && overlays.moment(slot, 0) > 0.0)
-    {
-      Moments<2> const m = slotMoments(overlays, slot);
-      int const candidate = acceptors.find(index, in.pairs.material(donors.pair(donor)));
-      if (candidate >= 0)
-      {
-        double part[num_stage_fields];
-        integrate(donors, donor, m, acceptorOrigin(in.mesh, acceptor), part);
-        add(candidate, part, rotation);
-        addVolume(candidate, m);
-      }
-    }
-    int const target = residues.target(donor);
-    if (target >= acceptors.offset(index) && target < acceptors.offset(index + 1))
-    {
-      double rest[num_stage_fields];
-      for (int f = 0; f < num_stage_fields; ++f)
-        rest[f] = f >= DeviatorXX && f <= DeviatorXY ? 0.0 : residues.integral(donor, f);
-      add(target, rest, rotation);
-    }
+    Quadrilateral q;
+    if (!inflowQuadrilateral(in, cell, face, boundary, q))
+      return false;
+    m = inflowMoments(in.mesh, acceptor, q);
+    return m.volume() > least_overlay * in.mesh.cell_area(acceptor);
   }
 
-  KOKKOS_INLINE_FUNCTION void addInflow(int index, int acceptor, int cell) const
+  /// Whether a deformable material gets into a cell by an overlay or an inflow.
+  KOKKOS_INLINE_FUNCTION bool reaches(int acceptor, int material) const
+  {
+    bool const inflow = (classes.openAround(acceptor) & InflowBit) != 0;
+    bool any = false;
+    forCellAndNeighbours(in.mesh, in.links, acceptor,
+                         [&](int cell, int slot, int)
+                         {
+                           int const index = classes.interface_index(cell);
+                           if (index < 0)
+                             return;
+                           int const donor = donors.find(index, material);
+                           any = any || (donor >= 0 && (donors.head(donor).overlaps >> slot & 1ull) != 0);
+                           Boundary boundary;
+                           Moments<2> m;
+                           for (int face = 0; inflow && face < 4; ++face)
+                             any = any || (flowsIn(cell, acceptor, face, boundary, m) && boundary.material == material);
+                         });
+    return any;
+  }
+
+  /// The donor's residue goes to its own cell where that gets the material, to the largest overlay's elsewhere.
+  KOKKOS_INLINE_FUNCTION bool takesResidue(DonorHead const &head, int cell, int slot) const
+  {
+    if (head.residue_slot < 0 || (slot != 0 && slot != head.residue_slot))
+      return false;
+    bool const at_home = (head.overlaps & 1ull) != 0 || reaches(cell, head.material);
+    return at_home ? slot == 0 : slot == head.residue_slot;
+  }
+
+  /// Add a donor of `cell`, in which the acceptor has the slot.
+  KOKKOS_INLINE_FUNCTION void addDonor(Row &row, int cell, int donor, int slot, int rotation) const
+  {
+    DonorHead const &head = donors.head(donor);
+    bool const overlaps = (head.overlaps >> slot & 1ull) != 0;
+    bool const residue = takesResidue(head, cell, slot);
+    int const candidate = overlaps || residue ? candidateOf(row, head.material) : -1;
+    if (candidate < 0)
+      return;
+    if (overlaps)
+      addOverlay(candidate, overlays.row(donor, slot), rotation);
+    if (residue)
+      add(candidate, &overlays.residue(donor, 0), rotation);
+  }
+
+  KOKKOS_INLINE_FUNCTION void addInflow(Row &row, int acceptor, int cell) const
   {
     for (int face = 0; face < 4; ++face)
     {
       Boundary boundary;
-      Quadrilateral q;
-      if (!inflowQuadrilateral(in, cell, face, boundary, q))
-        continue;
-      Moments<2> const m = overlayMoments(in.mesh, acceptor, q);
-      int const candidate = acceptors.find(index, boundary.material);
-      if (candidate < 0 || !(m.volume() > least_overlay * in.mesh.cell_area(acceptor)))
+      Moments<2> m;
+      int const candidate = flowsIn(cell, acceptor, face, boundary, m) ? candidateOf(row, boundary.material) : -1;
+      if (candidate < 0)
         continue;
       double const mass = m.volume() / boundary.specific_volume;
-      double part[num_stage_fields] = {};
+      double part[num_overlay_sums] = {};
       part[DensityField] = mass;
       part[KineticField] = 0.5 * mass * dot(boundary.velocity, boundary.velocity);
       part[SpecificVolume] = m.volume();
@@ -83,46 +149,70 @@ struct AccumulateFunctor
       for (int k = 0; k < 4; ++k)
         for (int d = 0; d < 2; ++d)
           part[first_corner_field + 2 * k + d] = mass * boundary.velocity[d];
-      add(candidate, part, 0);
-      addVolume(candidate, m);
+      part[VolumeSum] = m.volume();
+      part[FirstMomentX] = m.first(0);
+      part[FirstMomentY] = m.first(1);
+      addOverlay(candidate, part, 0);
       if (in.mesh.cell_depth(acceptor) != 0)
         continue;
-      bookings(index, BookOutMass) -= mass;
-      bookings(index, BookOutKinetic) -= part[KineticField];
-      bookings(index, BookOutEnergy) -= part[InternalEnergy];
-      bookings(index, BookOutMomentumX) -= mass * boundary.velocity[0];
-      bookings(index, BookOutMomentumY) -= mass * boundary.velocity[1];
+      bookings(row.index, BookInMass) += mass;
+      bookings(row.index, BookInKinetic) += part[KineticField];
+      bookings(row.index, BookInEnergy) += part[InternalEnergy];
+      bookings(row.index, BookInMomentumX) += mass * boundary.velocity[0];
+      bookings(row.index, BookInMomentumY) += mass * boundary.velocity[1];
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(int index) const
+  /// \return Whether nothing around moves: the cell keeps its bits.
+  KOKKOS_INLINE_FUNCTION bool gather(Row &row, int acceptor) const
   {
-    int const acceptor = classes.interface_cell(index);
-    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
-      for (int f = 0; f < num_candidate_sums; ++f)
-        acceptors.sum(c, f) = 0.0;
-    bool const inflow = (classes.openAround(in.mesh, acceptor) & InflowBit) != 0;
-    forCellAndNeighbours(in.mesh, acceptor,
-                         [&](int cell)
+    bool const inflow = (classes.openAround(acceptor) & InflowBit) != 0;
+    bool verbatim = !inflow;
+    forCellAndNeighbours(in.mesh, in.links, acceptor,
+                         [&](int cell, int slot, int rotation)
                          {
                            int const other = classes.interface_index(cell);
                            if (other < 0)
                              return;
-                           int const rotation = cornerRotation(in.mesh, acceptor, cell);
                            for (int donor = donors.offset(other); donor < donors.offset(other + 1); ++donor)
-                             if (donors.kind(donor) != RigidDonor)
-                               addDonor(index, acceptor, cell, donor, rotation);
+                           {
+                             int const kind = donors.head(donor).kind;
+                             verbatim = verbatim && (kind == QuietDonor || (kind == RigidDonor && cell != acceptor));
+                             addDonor(row, cell, donor, slot, rotation);
+                           }
                            if (inflow)
-                             addInflow(index, acceptor, cell);
+                             addInflow(row, acceptor, cell);
                          });
+    if (in.rigid.offset.extent(0) == 0)
+      return verbatim;
+    for (int r = in.rigid.offset(acceptor); r < in.rigid.offset(acceptor + 1); ++r)
+    {
+      candidateOf(row, in.rigid.material(r));
+      verbatim = false;
+    }
+    return verbatim;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int index, int &fragments, int &full) const
+  {
+    int const acceptor = classes.interface_cell(index);
+    for (int c = BookInMass; c <= BookInMomentumY; ++c)
+      bookings(index, c) = 0.0;
+    Row row{index, acceptors.begin(index), 0, false};
+    bool const verbatim = gather(row, acceptor);
+    acceptors.verbatim(index) = verbatim ? 1 : 0;
+    acceptors.count(index) = row.count;
+    if (row.full && acceptors.room == most_candidates && in.mesh.cell_depth(acceptor) == 0)
+      bookings(index, BookFailures) += 1.0;
+    full += row.full ? 1 : 0;
+    double const cell_area = in.mesh.cell_area(acceptor);
+    for (int c = row.first; c < row.first + row.count; ++c)
+    {
+      acceptors.merge_to(c) = -1;
+      fragments += !verbatim && isFragment(in, acceptors, c, cell_area) ? 1 : 0;
+    }
   }
 };
-
-KOKKOS_INLINE_FUNCTION bool isFragment(Input const &in, Acceptors const &acceptors, int candidate, double cell_area)
-{
-  return !in.isRigid(acceptors.material(candidate)) &&
-         acceptors.sum(candidate, VolumeSum) < in.options.merge_below * cell_area;
-}
 
 /// The candidate of the same material with the largest volume fraction among the vertex neighbours, no fragment itself;
 /// the lowest cell where equal; -1: none.
@@ -148,10 +238,9 @@ KOKKOS_INLINE_FUNCTION int mergeTarget(Input const &in, Classes const &classes, 
   return target;
 }
 
-KOKKOS_INLINE_FUNCTION void takeFragment(Input const &in, Acceptors const &acceptors, int to, int from, int to_cell,
-                                         int from_cell)
+KOKKOS_INLINE_FUNCTION void takeFragment(Input const &in, Acceptors const &acceptors, int to, int from, int rotation,
+                                         int to_cell, int from_cell)
 {
-  int const rotation = cornerRotation(in.mesh, to_cell, from_cell);
   Vector2 const shift = acceptorOrigin(in.mesh, from_cell) - acceptorOrigin(in.mesh, to_cell);
   for (int f = 0; f < first_corner_field; ++f)
     acceptors.sum(to, f) += acceptors.sum(from, f);
@@ -167,45 +256,63 @@ KOKKOS_INLINE_FUNCTION void takeFragment(Input const &in, Acceptors const &accep
 
 } // namespace
 
-void accumulate(Input const &in, Classes const &classes, Donors const &donors, Overlays const &overlays,
-                Residues const &residues, Acceptors const &acceptors, Bookings const &bookings)
+int accumulate(Input const &in, Classes const &classes, Donors const &donors, Overlays const &overlays,
+               Acceptors &acceptors, Bookings const &bookings)
 {
-  Kokkos::parallel_for("Harmos::remap::accumulate", RangePolicy(0, classes.num_interface),
-                       AccumulateFunctor{in, classes, donors, overlays, residues, acceptors, bookings});
+  int const cells = classes.num_interface;
+  grow(acceptors.count, "candidateCount", cells);
+  grow(acceptors.verbatim, "verbatim", cells);
+  for (;; acceptors.room = Math::min(2 * acceptors.room, most_candidates))
+  {
+    std::size_t const candidates = static_cast<std::size_t>(cells) * acceptors.room;
+    grow(acceptors.material, "candidateMaterial", candidates);
+    grow(acceptors.merge_to, "mergeTo", candidates);
+    grow(acceptors.sum, "candidateSum", candidates);
+    grow(acceptors.record, "candidateRecord", candidates);
+    grow(acceptors.kinetic, "candidateKinetic", candidates);
+    grow(acceptors.centroid, "candidateCentroid", candidates);
+    grow(acceptors.corner_velocity, "candidateVelocity", candidates);
+    int fragments = 0, full = 0;
+    Kokkos::parallel_reduce("Harmos::remap::accumulate", RangePolicy(0, cells),
+                            AccumulateFunctor{in, classes, donors, overlays, acceptors, bookings}, fragments, full);
+    if (full == 0 || acceptors.room == most_candidates)
+      return fragments;
+  }
 }
 
 void mergeFragments(Input const &in, Classes const &classes, Acceptors const &acceptors, Bookings const &bookings)
 {
   Kokkos::parallel_for(
       "Harmos::remap::chooseMerges", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int i) {
+        if (acceptors.verbatim(i) != 0)
+          return;
         int const cell = classes.interface_cell(i);
-        for (int c = acceptors.offset(i); c < acceptors.offset(i + 1); ++c)
+        for (int c = acceptors.begin(i); c < acceptors.end(i); ++c)
         {
-          bool const fragment = acceptors.verbatim(i) == 0 && isFragment(in, acceptors, c, in.mesh.cell_area(cell));
+          bool const fragment = isFragment(in, acceptors, c, in.mesh.cell_area(cell));
           int const target = fragment ? mergeTarget(in, classes, acceptors, cell, acceptors.material(c)) : -1;
           acceptors.merge_to(c) = target;
           if (target >= 0 && in.mesh.cell_depth(cell) == 0)
             bookings(i, BookMerged) += 1.0;
         }
       });
-  if (in.options.merge_below <= 0.0)
-    return;
   // Targets are no fragments: nobody reads what another writes.
   Kokkos::parallel_for(
       "Harmos::remap::gatherMerges", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int i) {
         int const cell = classes.interface_cell(i);
+        int const first = acceptors.begin(i), end = acceptors.end(i);
         for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
         {
           int const neighbour = in.mesh.cell_neighbour.item(j);
           int const other = classes.interface_index(neighbour);
           if (other < 0)
             continue;
-          for (int from = acceptors.offset(other); from < acceptors.offset(other + 1); ++from)
+          for (int from = acceptors.begin(other); from < acceptors.end(other); ++from)
           {
             int const to = acceptors.merge_to(from);
-            if (to < acceptors.offset(i) || to >= acceptors.offset(i + 1))
+            if (to < first || to >= end)
               continue;
-            takeFragment(in, acceptors, to, from, cell, neighbour);
+            takeFragment(in, acceptors, to, from, in.links.rotation(j), cell, neighbour);
             acceptors.verbatim(i) = 0;
           }
         }

@@ -11,51 +11,45 @@ namespace RemapDetail
 namespace
 {
 
-/// Displacement of a corner in stage 2: swept nodes are at home already.
-KOKKOS_INLINE_FUNCTION Vector2 cornerDisplacement(Input const &in, Classes const &classes, int pair, int corner)
+/// Displacements of the corners of a pair in stage 2: swept nodes are at home already. False where none moves.
+KOKKOS_INLINE_FUNCTION bool cornerDisplacements(Input const &in, Classes const &classes, int cell, int pair,
+                                                Vector2 u[4])
 {
-  int const node = in.mesh.cell_node(in.pairs.cell(pair), corner);
-  if (classes.node_return(node) == SweptNode)
-    return {0.0, 0.0};
-  return in.displacement(in.pairs.dof_node(pair, corner));
-}
-
-KOKKOS_INLINE_FUNCTION bool moves(Input const &in, Classes const &classes, int pair)
-{
+  bool moves = false;
   for (int k = 0; k < 4; ++k)
   {
-    Vector2 const u = cornerDisplacement(in, classes, pair, k);
-    if (u[0] != 0.0 || u[1] != 0.0)
-      return true;
+    bool const swept = classes.node_return(in.mesh.cell_node(cell, k)) == SweptNode;
+    u[k] = swept ? Vector2{0.0, 0.0} : in.displacement(in.pairs.dof_node(pair, k));
+    moves = moves || u[k][0] != 0.0 || u[k][1] != 0.0;
   }
-  return false;
+  return moves;
 }
 
-KOKKOS_INLINE_FUNCTION Region movedRegion(Input const &in, Classes const &classes, int pair)
+KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Vector2 const u[4], Region &region)
 {
-  int const cell = in.pairs.cell(pair);
   Quadrilateral const q = cellQuadrilateral(in.mesh, cell);
-  Vector2 u[4];
-  for (int k = 0; k < 4; ++k)
-    u[k] = cornerDisplacement(in, classes, pair, k);
-  Region region = in.regions.region(in.mesh, in.pairs, pair);
-  for (int i = 0; i < region.size; ++i)
+  int const first = in.regions.cell_region(cell);
+  if (first < 0)
   {
-    Vector2 const x = region[i];
+    region.size = 4;
+    for (int k = 0; k < 4; ++k)
+      region[k] = q[k] + u[k];
+    return;
+  }
+  Region const &still = in.regions.polygon(first + pair - in.pairs.offset(cell));
+  region.size = still.size;
+  for (int i = 0; i < still.size; ++i)
+  {
+    Vector2 const x = still[i];
     int corner = -1;
     for (int k = 0; k < 4; ++k)
       if (x[0] == q[k][0] && x[1] == q[k][1])
         corner = k;
-    if (corner >= 0)
-    {
-      region[i] += u[corner];
-      continue;
-    }
     double N[4];
-    shapeFunctionsAt(q, x, N);
-    region[i] += (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]);
+    if (corner < 0)
+      shapeFunctionsAt(q, x, N);
+    region[i] = x + (corner >= 0 ? u[corner] : (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]));
   }
-  return region;
 }
 
 KOKKOS_INLINE_FUNCTION void setShape(Donors const &donors, int donor, double volume, Vector2 const &centroid)
@@ -85,9 +79,8 @@ KOKKOS_INLINE_FUNCTION bool setMovedShape(Donors const &donors, int donor, Regio
 }
 
 /// Where a whole donor is: the region at time n.
-KOKKOS_INLINE_FUNCTION void setStillShape(Input const &in, Donors const &donors, int donor)
+KOKKOS_INLINE_FUNCTION void setStillShape(Input const &in, Donors const &donors, int donor, int pair)
 {
-  int const pair = donors.pair(donor);
   int const cell = in.pairs.cell(pair);
   double const cell_area = in.mesh.cell_area(cell);
   if (in.pairs.cell_kind(cell) == PureCell)
@@ -100,61 +93,78 @@ KOKKOS_INLINE_FUNCTION void setStillShape(Input const &in, Donors const &donors,
              {in.state.centroid(pair, 0), in.state.centroid(pair, 1)});
 }
 
-KOKKOS_INLINE_FUNCTION bool materialMoves(Input const &in, Classes const &classes, int cell)
+struct MoveFunctor
 {
-  for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
-    if (!in.isRigid(in.pairs.material(pair)) && moves(in, classes, pair))
-      return true;
-  return false;
-}
+  Input in;
+  Classes classes;
+  StageState stage;
+  Donors donors;
+
+  KOKKOS_INLINE_FUNCTION void setValue(int donor, int pair) const
+  {
+    double *value = &donors.value(donor, 0);
+    for (int f = 0; f < num_pair_fields; ++f)
+      value[f] = stage.record(pair, f);
+    value[DensityField] = stage.record(pair, Mass) / donors.shape(donor, 0);
+    value[KineticField] = stage.kineticEnergy(in.pairs, pair);
+    cornerVelocities(in.pairs, stage.velocity, pair, value + first_corner_field);
+    cornerVelocities(in.pairs, in.half, pair, &donors.half(donor, 0));
+  }
+
+  KOKKOS_INLINE_FUNCTION int move(int donor, int cell, int pair) const
+  {
+    Vector2 u[4];
+    int kind = QuietDonor;
+    if (cornerDisplacements(in, classes, cell, pair, u))
+    {
+      Region &region = donors.polygon(donor);
+      moveRegion(in, cell, pair, u, region);
+      bool const sound = setMovedShape(donors, donor, region, 1e-15 * in.mesh.cell_area(cell));
+      kind = sound ? MovingDonor : DegenerateDonor;
+    }
+    if (kind != MovingDonor)
+      setStillShape(in, donors, donor, pair);
+    return kind;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int index) const
+  {
+    int const cell = classes.interface_cell(index);
+    for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
+    {
+      int const pair = in.pairs.offset(cell) + donor - donors.offset(index);
+      int const material = in.pairs.material(pair);
+      donors.head(donor) = {pair, material, RigidDonor, -1, 0ull};
+      if (in.isRigid(material))
+        continue;
+      donors.head(donor).kind = move(donor, cell, pair);
+      setValue(donor, pair);
+    }
+  }
+};
 
 } // namespace
 
-Donors moveDonors(Input const &in, Classes const &classes)
+void moveDonors(Input const &in, Classes const &classes, StageState const &stage, Donors &donors)
 {
-  Donors donors;
-  View<int *> const offset = scratch<int *>("donorOffset", classes.num_interface + 1);
-  donors.offset = offset;
-  Kokkos::parallel_for(
-      "Harmos::remap::countDonors", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int i) {
-        int const cell = classes.interface_cell(i);
-        offset(i) = in.pairs.offset(cell + 1) - in.pairs.offset(cell);
-      });
-  donors.num = exclusiveScan(offset);
-  donors.pair = scratch<int *>("donorPair", donors.num);
-  donors.kind = scratch<int *>("donorKind", donors.num);
-  donors.polygon = scratch<Region *>("donorPolygon", donors.num);
-  donors.shape = scratch<double *[6]>("donorShape", donors.num);
-  donors.polynomial = scratch<double *[num_stage_fields][3]>("donorPolynomial", donors.num);
-  donors.mass_offset = scratch<double *[2]>("donorMassOffset", donors.num);
-  Donors const out = donors;
-  Kokkos::parallel_for(
-      "Harmos::remap::moveDonors", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int i) {
-        int const cell = classes.interface_cell(i);
-        bool const moving = materialMoves(in, classes, cell);
-        for (int donor = out.offset(i); donor < out.offset(i + 1); ++donor)
-        {
-          int const pair = in.pairs.offset(cell) + donor - out.offset(i);
-          out.pair(donor) = pair;
-          if (in.isRigid(in.pairs.material(pair)))
-          {
-            out.kind(donor) = RigidDonor;
-            continue;
-          }
-          int kind = QuietDonor;
-          if (moving && moves(in, classes, pair))
-          {
-            Region const region = movedRegion(in, classes, pair);
-            out.polygon(donor) = region;
-            bool const sound = setMovedShape(out, donor, region, 1e-15 * in.mesh.cell_area(cell));
-            kind = sound ? MovingDonor : DegenerateDonor;
-          }
-          if (kind != MovingDonor)
-            setStillShape(in, out, donor);
-          out.kind(donor) = kind;
-        }
-      });
-  return donors;
+  int const cells = classes.num_interface;
+  grow(donors.offset, "donorOffset", cells + 1);
+  View<int *> const offset = donors.offset;
+  Kokkos::parallel_scan(
+      "Harmos::remap::countDonors", RangePolicy(0, cells + 1),
+      KOKKOS_LAMBDA(int i, int &sum, bool last) {
+        if (last)
+          offset(i) = sum;
+        if (i < cells)
+          sum += in.pairs.offset(classes.interface_cell(i) + 1) - in.pairs.offset(classes.interface_cell(i));
+      },
+      donors.num);
+  grow(donors.head, "donorHead", donors.num);
+  grow(donors.polygon, "donorPolygon", donors.num);
+  grow(donors.shape, "donorShape", donors.num);
+  grow(donors.value, "donorValue", donors.num);
+  grow(donors.half, "donorHalf", donors.num);
+  Kokkos::parallel_for("Harmos::remap::moveDonors", RangePolicy(0, cells), MoveFunctor{in, classes, stage, donors});
 }
 
 } // namespace RemapDetail

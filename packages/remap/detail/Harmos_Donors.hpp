@@ -2,9 +2,8 @@
 #ifndef HARMOS_DONORS_HPP
 #define HARMOS_DONORS_HPP
 
-#include <detail/Harmos_CornerRotation.hpp>
 #include <detail/Harmos_RemapClasses.hpp>
-#include <detail/Harmos_SweptStage.hpp>
+#include <detail/Harmos_StageFields.hpp>
 
 namespace Harmos
 {
@@ -24,15 +23,6 @@ struct StageState
   }
 };
 
-/// Fields of stage 2: StageField and PairField in one numbering, then the velocities of the four corners.
-constexpr int num_stage_fields = 16;
-constexpr int first_corner_field = 8; // u, v of corner 0, 1, 2, 3
-
-KOKKOS_INLINE_FUNCTION bool byVolume(int field)
-{
-  return field == DensityField || (field >= DeviatorXX && field <= DeviatorXY);
-}
-
 enum DonorKind : int
 {
   MovingDonor = 0,
@@ -41,34 +31,52 @@ enum DonorKind : int
   RigidDonor = 3       // no donor
 };
 
+/// What the acceptors around read of a donor.
+struct DonorHead
+{
+  int pair;
+  int material;
+  int kind;                    // DonorKind
+  int residue_slot;            // of the largest overlay; -1: the donor has no residue
+  unsigned long long overlaps; // bit s: an overlay with the cell of slot s (NeighbourLinks)
+};
+
 /// The pairs of the interface cells after their move: donor = offset(interface index) + place of the pair in its cell.
 struct Donors
 {
   int num = 0;
   View<int *> offset; // num_interface + 1
-  View<int *> pair;
-  View<int *> kind;                               // DonorKind
-  View<Region *> polygon;                         // moved; moving donors
-  View<double *[6]> shape;                        // volume, centroid, second moments xx, xy, yy about the centroid
-  View<double *[num_stage_fields][3]> polynomial; // mean, gradient
-  View<double *[2]> mass_offset;                  // mass centroid - centroid
+  View<DonorHead *> head;
+  View<Region *> polygon;                                      // moved; moving donors
+  View<double *[6]> shape;                                     // volume, centroid, second moments xx, xy, yy about it
+  View<double *[num_stage_fields]> value;                      // density and primitives, corner velocities
+  View<double * [num_stage_fields - first_corner_field]> half; // corner velocities before stage 1
 
-  KOKKOS_INLINE_FUNCTION int index(Input const &in, Classes const &classes, int of_pair) const
+  /// The donor of a material in an interface cell, or -1.
+  KOKKOS_INLINE_FUNCTION int find(int index, int material) const
   {
-    int const cell = in.pairs.cell(of_pair);
-    return offset(classes.interface_index(cell)) + of_pair - in.pairs.offset(cell);
+    for (int donor = offset(index); donor < offset(index + 1); ++donor)
+      if (head(donor).material == material)
+        return donor;
+    return -1;
   }
 };
 
-/// Moved polygons: vertices of the filled region displaced bilinearly by the pair's own dof nodes; swept nodes stay.
-Donors moveDonors(Input const &in, Classes const &classes);
+/// Velocities at the corners of a pair, as stage fields are ordered.
+KOKKOS_INLINE_FUNCTION void cornerVelocities(CellMaterialPairs const &pairs, View<double *[2]> const &velocity,
+                                             int pair, double *out)
+{
+  for (int k = 0; k < 4; ++k)
+  {
+    int const dof = pairs.dof_node(pair, k);
+    out[2 * k] = velocity(dof, 0);
+    out[2 * k + 1] = velocity(dof, 1);
+  }
+}
 
-/// Linear polynomials of the donors: density and deviator about the centroid, primitives about the mass centroid, from
-/// least squares over the same-material pairs of the vertex neighbours, limited (Barth & Jespersen, AIAA 89-0366) at
-/// all vertices of the donor's polygon to their range.
-///
-/// Gradients of the corner velocities come from velocities before stage 1, so that they need no wider halo.
-void donorPolynomials(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors);
+/// Moved polygons: vertices of the filled region displaced bilinearly by the pair's own dof nodes; swept nodes stay.
+/// The donors' values.
+void moveDonors(Input const &in, Classes const &classes, StageState const &stage, Donors &donors);
 
 } // namespace RemapDetail
 } // namespace Harmos

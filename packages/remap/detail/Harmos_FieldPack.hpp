@@ -65,9 +65,26 @@ KOKKOS_FORCEINLINE_FUNCTION FieldPack operator+(FieldPack a, FieldPack const &b)
 {
   return a += b;
 }
+KOKKOS_FORCEINLINE_FUNCTION FieldPack operator-(FieldPack a, FieldPack const &b)
+{
+  return a -= b;
+}
 KOKKOS_FORCEINLINE_FUNCTION FieldPack operator*(FieldPack a, FieldPack const &b)
 {
   return a *= b;
+}
+
+KOKKOS_FORCEINLINE_FUNCTION FieldPack lesser(FieldPack a, FieldPack const &b)
+{
+  for (int p = 0; p < FieldPack::parts; ++p)
+    a.part[p] = Math::min(a.part[p], b.part[p]);
+  return a;
+}
+KOKKOS_FORCEINLINE_FUNCTION FieldPack greater(FieldPack a, FieldPack const &b)
+{
+  for (int p = 0; p < FieldPack::parts; ++p)
+    a.part[p] = Math::max(a.part[p], b.part[p]);
+  return a;
 }
 
 /// The weights of a record's fields: volume for density and deviator, mass for the primitives.

@@ -2,7 +2,7 @@
 #ifndef HARMOS_KEPT_HPP
 #define HARMOS_KEPT_HPP
 
-#include <detail/Harmos_SweptStage.hpp>
+#include <detail/Harmos_Acceptors.hpp>
 
 namespace Harmos
 {
@@ -16,12 +16,19 @@ struct Kept
   View<int *[4]> face_neighbour; // of the mesh that `chunks` belong to
   SweptChunks chunks;
   SweptWindow window;
+  NeighbourLinks links;
 
   // Held so that their addresses are not given to others: equal addresses then mean equal contents.
   CellMaterialPairs pairs;
   BoundaryConditions conditions;
   View<Material *> materials;
   Classes classes;
+
+  // Work arrays of stage 2, as large as they were ever needed.
+  Donors donors;
+  Overlays overlays;
+  Acceptors acceptors;
+  Bookings bookings;
 
   std::vector<View<double *[num_pair_fields]>> records;
   std::vector<View<double *[2]>> velocities;

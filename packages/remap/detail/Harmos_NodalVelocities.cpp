@@ -60,11 +60,12 @@ struct NodalVelocityFunctor
     return mass;
   }
 
+  /// No cell around changes its materials, and so the node its dof nodes.
   KOKKOS_INLINE_FUNCTION void copyFinal(int node) const
   {
-    for (int dof = dof_nodes.offset(node); dof < dof_nodes.offset(node + 1); ++dof)
+    int old = in.dof_nodes.offset(node);
+    for (int dof = dof_nodes.offset(node); dof < dof_nodes.offset(node + 1); ++dof, ++old)
     {
-      int const old = in.dof_nodes.find(node, dof_nodes.material(dof));
       velocity(dof, 0) = stage.velocity(old, 0);
       velocity(dof, 1) = stage.velocity(old, 1);
     }
@@ -83,7 +84,7 @@ struct NodalVelocityFunctor
     int const condition = in.conditions.node_index(node);
     for (int dof = dof_nodes.offset(node); dof < dof_nodes.offset(node + 1); ++dof)
     {
-      int const old = in.dof_nodes.find(node, dof_nodes.material(dof));
+      int const old = gathers && condition < 0 ? -1 : in.dof_nodes.find(node, dof_nodes.material(dof));
       Vector2 v{0.0, 0.0}, momentum;
       double const four_mass = gather(node, dof, momentum);
       if (!gathers)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_Overlays.hpp>
 
+#include <detail/Harmos_DonorPolynomial.hpp>
+#include <detail/Harmos_OverlayMoments.hpp>
+
 namespace Harmos
 {
 namespace RemapDetail
@@ -9,86 +12,286 @@ namespace RemapDetail
 namespace
 {
 
-KOKKOS_INLINE_FUNCTION void setMoments(Overlays const &overlays, int slot, Moments<2> const &m)
+KOKKOS_INLINE_FUNCTION double boundaryDistance(Input const &in, int cell, int face, Vector2 const &point)
 {
-  for (int i = 0; i < 6; ++i)
-    overlays.moment(slot, i) = m.value[i];
+  Vector2 const a = in.node(in.mesh.cell_node(cell, face));
+  Vector2 const edge = normalised(in.node(in.mesh.cell_node(cell, (face + 1) % 4)) - a);
+  return -cross(edge, point - a);
 }
 
-/// A whole donor lies in its own cell: volume and first moments; its polynomial is constant.
-KOKKOS_INLINE_FUNCTION void setWhole(Input const &in, Donors const &donors, Overlays const &overlays, int donor,
-                                     int cell)
+/// Whether a point that left the domain near `cell` did so through an outflow face and not a contact wall: the boundary
+/// face that it is farthest beyond decides.
+KOKKOS_INLINE_FUNCTION bool leftThroughOutflow(Input const &in, int cell, Vector2 const &point)
 {
-  Vector2 const origin = acceptorOrigin(in.mesh, cell);
-  Moments<2> m;
-  m.value[0] = donors.shape(donor, 0);
-  m.value[1] = m.value[0] * (donors.shape(donor, 1) - origin[0]);
-  m.value[2] = m.value[0] * (donors.shape(donor, 2) - origin[1]);
-  setMoments(overlays, overlays.offset(donor), m);
+  double farthest = 0.0;
+  bool outflow = false;
+  forCellAndNeighbours(in.mesh, in.links, cell,
+                       [&](int near, int, int)
+                       {
+                         for (int face = 0; face < 4; ++face)
+                         {
+                           int const number = in.mesh.face_boundary(near, face);
+                           if (number < 0)
+                             continue;
+                           double const beyond = boundaryDistance(in, near, face, point);
+                           if (beyond > farthest)
+                           {
+                             farthest = beyond;
+                             outflow = in.conditions.boundary(number).kind == BoundaryKind::Outflow;
+                           }
+                         }
+                       });
+  return outflow;
 }
 
-/// A donor of which nothing is left above the threshold stays whole: its volume fraction at its old centroid.
-KOKKOS_INLINE_FUNCTION void makeWhole(Input const &in, Donors const &donors, int donor, int cell)
+/// Whether a slip wall near `cell` bends: its nodes move along mean tangents, and so a little across its faces.
+KOKKOS_INLINE_FUNCTION bool curvedWallAround(Input const &in, int cell)
 {
-  int const pair = donors.pair(donor);
-  double const volume = in.state.record(pair, VolumeFraction) * in.mesh.cell_area(cell);
-  donors.kind(donor) = DegenerateDonor;
-  donors.polynomial(donor, 0, 0) *= donors.shape(donor, 0) / volume;
-  donors.shape(donor, 0) = volume;
-  if (in.pairs.cell_kind(cell) != PureCell)
-    for (int d = 0; d < 2; ++d)
-      donors.shape(donor, 1 + d) = in.state.centroid(pair, d);
-  donors.mass_offset(donor, 0) = donors.mass_offset(donor, 1) = 0.0;
-  for (int f = 0; f < num_stage_fields; ++f)
-    donors.polynomial(donor, f, 1) = donors.polynomial(donor, f, 2) = 0.0;
+  bool curved = false;
+  forCellAndNeighbours(in.mesh, in.links, cell,
+                       [&](int near, int, int)
+                       {
+                         for (int i = 0; i < 8; ++i)
+                         {
+                           int const face = i / 2;
+                           int const number = in.mesh.face_boundary(near, face);
+                           if (number < 0 || in.conditions.boundary(number).kind != BoundaryKind::SlipWall)
+                             continue;
+                           int const node = in.mesh.cell_node(near, (face + i % 2) % 4);
+                           NodeCondition const &condition = in.conditions.condition(in.conditions.node_index(node));
+                           Vector2 const edge = in.node(in.mesh.cell_node(near, (face + 1) % 4)) -
+                                                in.node(in.mesh.cell_node(near, face));
+                           curved = curved || (condition.count == 1 &&
+                                               Math::fabs(dot(condition.normal[0], normalised(edge))) > 1e-12);
+                         }
+                       });
+  return curved;
 }
 
-KOKKOS_INLINE_FUNCTION void intersectDonor(Input const &in, Classes const &classes, Donors const &donors,
-                                           Overlays const &overlays, int donor)
+/// A donor at work.
+struct Donor
 {
-  int const cell = in.pairs.cell(donors.pair(donor));
-  int const slots = overlays.offset(donor + 1) - overlays.offset(donor);
-  int const row = in.mesh.cell_neighbour.offset(cell);
-  bool any = false;
-  for (int s = 0; s < slots; ++s)
+  int number, cell;
+  double volume, mass;
+  Vector2 centroid;
+  DonorPolynomial polynomial;
+  unsigned long long overlaps;
+  // what is left of it, and the largest overlay
+  StageFields rest;
+  double rest_volume;
+  Vector2 rest_first; // about the centroid
+  double largest;
+  int largest_slot;
+};
+
+struct IntersectFunctor : PolynomialFinder
+{
+  Overlays overlays;
+  Bookings bookings;
+
+  IntersectFunctor(PolynomialFinder const &finder, Overlays const &o, Bookings const &b)
+      : PolynomialFinder(finder), overlays(o), bookings(b)
+  {
+  }
+
+  /// Integrals of the donor's fields over one overlay with moments V, S, T about its centroid:
+  /// mass = rho V + grad rho . S; integral of rho phi = phi mass + grad phi . (rho S + T grad rho - e mass);
+  /// deviator: s V + grad s . S.
+  KOKKOS_INLINE_FUNCTION static StageFields integrate(DonorPolynomial const &p, Moments<2> const &m)
+  {
+    double const rho = p.mean.record[DensityField];
+    double const rx = p.x.record[DensityField], ry = p.y.record[DensityField];
+    double const mass = rho * m.volume() + (rx * m.first(0) + ry * m.first(1));
+    double const x = rho * m.first(0) + (m.second(0, 0) * rx + m.second(0, 1) * ry) - p.mass_offset[0] * mass;
+    double const y = rho * m.first(1) + (m.second(0, 1) * rx + m.second(1, 1) * ry) - p.mass_offset[1] * mass;
+    StageFields out;
+    out.record = p.mean.record * fieldWeights(m.volume(), mass) +
+                 (p.x.record * fieldWeights(m.first(0), x) + p.y.record * fieldWeights(m.first(1), y));
+    out.corner = p.mean.corner * FieldPack(mass) + (p.x.corner * FieldPack(x) + p.y.corner * FieldPack(y));
+    return out;
+  }
+
+  /// Book an overlay in the acceptor's slot.
+  KOKKOS_INLINE_FUNCTION void take(Donor &d, int slot, int acceptor, Moments<2> const &m) const
+  {
+    StageFields const part = integrate(d.polynomial, m);
+    d.rest -= part;
+    d.rest_volume -= m.volume();
+    d.rest_first -= Vector2{m.first(0), m.first(1)};
+    d.overlaps |= 1ull << slot;
+    if (m.volume() > d.largest)
+    {
+      d.largest = m.volume();
+      d.largest_slot = slot;
+    }
+    Vector2 const shift = d.centroid - acceptorOrigin(in.mesh, acceptor);
+    double *row = overlays.row(d.number, slot);
+    part.store(row);
+    row[VolumeSum] = m.volume();
+    row[FirstMomentX] = m.first(0) + m.volume() * shift[0];
+    row[FirstMomentY] = m.first(1) + m.volume() * shift[1];
+    for (int i = FirstMomentY + 1; i < num_overlay_sums; ++i)
+      row[i] = 0.0;
+  }
+
+  /// A donor before any overlay is taken from it.
+  KOKKOS_INLINE_FUNCTION void begin(Donor &d) const
+  {
+    d.overlaps = 0;
+    d.rest.record = d.polynomial.mean.record * fieldWeights(d.volume, d.mass);
+    d.rest.record.set<DensityField>(d.mass);
+    d.rest.corner = d.polynomial.mean.corner * FieldPack(d.mass);
+    d.rest_volume = d.volume;
+    d.rest_first = {0.0, 0.0};
+    d.largest = 0.0;
+    d.largest_slot = 0;
+  }
+
+  /// A whole donor lies in its own cell.
+  KOKKOS_INLINE_FUNCTION void takeWhole(Donor &d) const
   {
     Moments<2> m;
-    if (donors.kind(donor) == MovingDonor)
-    {
-      int const acceptor = s == 0 ? cell : in.mesh.cell_neighbour.item(row + s - 1);
-      if (classes.interface_index(acceptor) >= 0)
-        m = overlayMoments(in.mesh, acceptor, donors.polygon(donor));
-      if (!(m.volume() > least_overlay * in.mesh.cell_area(acceptor)))
-        m = Moments<2>{};
-      any = any || m.volume() > 0.0;
-    }
-    setMoments(overlays, overlays.offset(donor) + s, m);
+    m.value[0] = d.volume;
+    take(d, 0, d.cell, m);
   }
-  if (donors.kind(donor) == MovingDonor && !any)
-    makeWhole(in, donors, donor, cell);
-  if (donors.kind(donor) == QuietDonor || donors.kind(donor) == DegenerateDonor)
-    setWhole(in, donors, overlays, donor, cell);
-}
+
+  KOKKOS_INLINE_FUNCTION void intersectCells(Donor &d, MovedVertices const &v) const
+  {
+    Region const &region = donors.polygon(d.number);
+    double low_x = region[0][0], high_x = low_x, low_y = region[0][1], high_y = low_y;
+    for (int i = 1; i < region.size; ++i)
+    {
+      low_x = Math::min(low_x, region[i][0]);
+      high_x = Math::max(high_x, region[i][0]);
+      low_y = Math::min(low_y, region[i][1]);
+      high_y = Math::max(high_y, region[i][1]);
+    }
+    int const row = in.mesh.cell_neighbour.offset(d.cell);
+    int const slots = 1 + in.mesh.cell_neighbour.offset(d.cell + 1) - row;
+    bool whole = false;
+    for (int s = 0; s < slots && !whole; ++s)
+    {
+      int const acceptor = s == 0 ? d.cell : in.mesh.cell_neighbour.item(row + s - 1);
+      if (classes.interface_index(acceptor) < 0)
+        continue;
+      if (high_x <= in.links.box(acceptor, 0) || low_x >= in.links.box(acceptor, 2) ||
+          high_y <= in.links.box(acceptor, 1) || low_y >= in.links.box(acceptor, 3))
+        continue;
+      Window const w = windowAbout(in.mesh, acceptor, d.centroid);
+      Moments<2> m = momentsInside<max_region_vertices>(v.size, v.x, v.y, w, whole);
+      if (whole)
+        for (int i = 0; i < Moments<2>::count; ++i)
+          m.value[i] = i == 1 || i == 2 ? 0.0 : donors.shape(d.number, i);
+      if (m.volume() > least_overlay * in.mesh.cell_area(acceptor))
+        take(d, s, acceptor, m);
+    }
+  }
+
+  /// A donor of which nothing is left above the threshold stays whole: its volume fraction at its old centroid.
+  KOKKOS_INLINE_FUNCTION void makeWhole(Donor &d, int pair) const
+  {
+    double const volume = in.state.record(pair, VolumeFraction) * in.mesh.cell_area(d.cell);
+    d.polynomial = constantPolynomial(loadStageFields(&donors.value(d.number, 0)));
+    d.polynomial.mean.record.set<DensityField>(d.polynomial.mean.record[DensityField] * (d.volume / volume));
+    d.volume = volume;
+    if (in.pairs.cell_kind(d.cell) != PureCell)
+      d.centroid = {in.state.centroid(pair, 0), in.state.centroid(pair, 1)};
+    begin(d);
+    takeWhole(d);
+  }
+
+  KOKKOS_INLINE_FUNCTION void bookOutflow(int index, StageFields const &rest) const
+  {
+    bookings(index, BookOutMass) += rest.record[DensityField];
+    bookings(index, BookOutKinetic) += rest.record[KineticField];
+    bookings(index, BookOutEnergy) += rest.record[InternalEnergy];
+    for (int k = 0; k < 4; ++k)
+    {
+      bookings(index, BookOutMomentumX) += 0.25 * rest.corner[2 * k];
+      bookings(index, BookOutMomentumY) += 0.25 * rest.corner[2 * k + 1];
+    }
+  }
+
+  /// Where the rest goes: through an outflow boundary, or to an acceptor (DonorHead::residue_slot).
+  KOKKOS_INLINE_FUNCTION int placeRest(int index, Donor &d, int open) const
+  {
+    double const area = in.mesh.cell_area(d.cell);
+    double const scale = d.rest_volume != 0.0 ? 1.0 / d.rest_volume : 0.0;
+    Vector2 const outside = d.centroid + scale * d.rest_first;
+    bool const owned = in.mesh.cell_depth(d.cell) == 0;
+    bool const left = (open & OutflowBit) != 0 && d.rest_volume > 1e-13 * area;
+    if (left && ((open & ContactBit) == 0 || leftThroughOutflow(in, d.cell, outside)))
+    {
+      if (owned)
+        bookOutflow(index, d.rest);
+      return -1;
+    }
+    double const tolerance = 1e-10 * d.volume + 1e-14 * area;
+    if (owned && Math::fabs(d.rest_volume) > tolerance && (open & (OutflowBit | ContactBit)) == 0 &&
+        !curvedWallAround(in, d.cell))
+    {
+      if (bookings(index, BookFailures) == 0.0)
+        bookings(index, BookFailedMaterial) = donors.head(d.number).material + 1.0;
+      bookings(index, BookFailures) += 1.0;
+    }
+    d.rest.record.set<DeviatorXX>(0.0);
+    d.rest.record.set<DeviatorYY>(0.0);
+    d.rest.record.set<DeviatorXY>(0.0);
+    d.rest.store(&overlays.residue(d.number, 0));
+    return d.largest_slot;
+  }
+
+  KOKKOS_INLINE_FUNCTION void remapDonor(int index, int cell, int number, int open) const
+  {
+    DonorHead &head = donors.head(number);
+    if (head.kind == RigidDonor)
+      return;
+    Donor d;
+    d.number = number;
+    d.cell = cell;
+    d.volume = donors.shape(number, 0);
+    d.mass = stage.record(head.pair, Mass);
+    d.centroid = {donors.shape(number, 1), donors.shape(number, 2)};
+    if (head.kind == MovingDonor)
+    {
+      MovedVertices const v = verticesAbout(donors.polygon(number), d.centroid);
+      d.polynomial = polynomial(number, cell, v);
+      begin(d);
+      intersectCells(d, v);
+      if (d.overlaps == 0)
+        makeWhole(d, head.pair);
+    }
+    else
+    {
+      d.polynomial = constantPolynomial(loadStageFields(&donors.value(number, 0)));
+      begin(d);
+      takeWhole(d);
+    }
+    head.overlaps = d.overlaps;
+    head.residue_slot = placeRest(index, d, open);
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int index) const
+  {
+    int const cell = classes.interface_cell(index);
+    for (int c = 0; c < num_bookings; ++c)
+      bookings(index, c) = 0.0;
+    int const open = classes.openAround(cell);
+    for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
+      remapDonor(index, cell, donor, open);
+  }
+};
 
 } // namespace
 
-Overlays intersect(Input const &in, Classes const &classes, Donors const &donors)
+void intersect(Input const &in, Classes const &classes, StageState const &stage, Donors const &donors,
+               Overlays &overlays, Bookings const &bookings)
 {
-  Overlays overlays;
-  View<int *> const offset = scratch<int *>("overlayOffset", donors.num + 1);
-  overlays.offset = offset;
-  Kokkos::parallel_for(
-      "Harmos::remap::countOverlays", RangePolicy(0, donors.num), KOKKOS_LAMBDA(int donor) {
-        int const cell = in.pairs.cell(donors.pair(donor));
-        offset(donor) = 1 + in.mesh.cell_neighbour.offset(cell + 1) - in.mesh.cell_neighbour.offset(cell);
-      });
-  int const slots = exclusiveScan(offset);
-  overlays.moment = scratch<double *[6]>("overlayMoment", slots);
-  Overlays const out = overlays;
-  Kokkos::parallel_for(
-      "Harmos::remap::intersect", RangePolicy(0, donors.num),
-      KOKKOS_LAMBDA(int donor) { intersectDonor(in, classes, donors, out, donor); });
-  return overlays;
+  overlays.slots = in.links.slots;
+  grow(overlays.sum, "overlaySum", static_cast<std::size_t>(overlays.slots) * donors.num);
+  grow(overlays.residue, "residue", donors.num);
+  Kokkos::parallel_for("Harmos::remap::intersect", RangePolicy(0, classes.num_interface),
+                       IntersectFunctor(PolynomialFinder{in, classes, stage, donors}, overlays, bookings));
 }
 
 } // namespace RemapDetail

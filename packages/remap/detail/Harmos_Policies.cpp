@@ -36,7 +36,7 @@ struct FinishFunctor
   /// Void, or a boundary beyond which void lies, explains a gap.
   KOKKOS_INLINE_FUNCTION bool voidAround(int cell) const
   {
-    bool any = classes.openAround(in.mesh, cell) != 0 || hadVoid(cell);
+    bool any = classes.openAround(cell) != 0 || hadVoid(cell);
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1) && !any; ++j)
       any = hadVoid(in.mesh.cell_neighbour.item(j));
     return any;
@@ -44,7 +44,7 @@ struct FinishFunctor
 
   KOKKOS_INLINE_FUNCTION void setVerbatim(int index, int cell) const
   {
-    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
     {
       int const pair = in.pairs.find(cell, acceptors.material(c));
       for (int f = 0; f < num_pair_fields; ++f)
@@ -117,11 +117,11 @@ struct FinishFunctor
   KOKKOS_INLINE_FUNCTION void makeFull(int index) const
   {
     int largest = -1;
-    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
       if (kept(c) && (largest < 0 || acceptors.record(c, VolumeFraction) > acceptors.record(largest, VolumeFraction)))
         largest = c;
     double others = 0.0;
-    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
       if (kept(c) && c != largest)
         others += acceptors.record(c, VolumeFraction);
     if (largest >= 0)
@@ -167,7 +167,7 @@ struct FinishFunctor
     }
     double const cell_area = in.mesh.cell_area(cell);
     double deformable = 0.0, rigid = 0.0;
-    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
     {
       if (!kept(c))
         continue;
@@ -185,7 +185,7 @@ struct FinishFunctor
     bool full;
     double const volume = share(index, cell, deformable, rigid, full);
     double const per_area = deformable > 0.0 ? volume / (deformable * cell_area) : 0.0;
-    for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
       if (kept(c) && !in.isRigid(acceptors.material(c)))
         acceptors.record(c, VolumeFraction) = acceptors.sum(c, VolumeSum) * per_area;
     if (full)

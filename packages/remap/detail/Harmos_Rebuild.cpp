@@ -13,7 +13,7 @@ KOKKOS_INLINE_FUNCTION bool sameMaterials(Input const &in, Acceptors const &acce
 {
   int pair = in.pairs.offset(cell);
   int const end = in.pairs.offset(cell + 1);
-  for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+  for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
   {
     if (acceptors.merge_to(c) >= 0)
       continue;
@@ -44,11 +44,11 @@ void buildRows(Input const &in, Classes const &classes, Acceptors const &accepto
         int const index = classes.interface_index(cell);
         int count = index < 0 ? in.pairs.offset(cell + 1) - in.pairs.offset(cell) : 0;
         if (index >= 0)
-          for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+          for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
             count += acceptors.merge_to(c) < 0 ? 1 : 0;
         offset(cell) = count;
       });
-  pairs.num_pairs = exclusiveScan(offset);
+  pairs.num_pairs = exclusiveScan(offset, cells);
   View<int *> const material = scratch<int *>("pairMaterial", pairs.num_pairs);
   View<int *> const pair_cell = scratch<int *>("pairCell", pairs.num_pairs);
   Kokkos::parallel_for(
@@ -59,7 +59,7 @@ void buildRows(Input const &in, Classes const &classes, Acceptors const &accepto
           for (int old = in.pairs.offset(cell); old < in.pairs.offset(cell + 1); ++old)
             material(pair++) = in.pairs.material(old);
         else
-          for (int c = acceptors.offset(index); c < acceptors.offset(index + 1); ++c)
+          for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
             if (acceptors.merge_to(c) < 0)
               material(pair++) = acceptors.material(c);
         for (pair = offset(cell); pair < offset(cell + 1); ++pair)
@@ -105,7 +105,7 @@ void copyCandidates(Classes const &classes, Acceptors const &acceptors, Rebuilt 
   Kokkos::parallel_for(
       "Harmos::remap::copyCandidates", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int i) {
         int pair = offset(classes.interface_cell(i));
-        for (int c = acceptors.offset(i); c < acceptors.offset(i + 1); ++c)
+        for (int c = acceptors.begin(i); c < acceptors.end(i); ++c)
         {
           if (acceptors.merge_to(c) >= 0)
             continue;

@@ -33,144 +33,214 @@ bool hasOpenBoundary(Input const &in)
   return count > 0;
 }
 
-void classifyMaterials(Input const &in, Classes const &classes)
-{
-  Kokkos::parallel_for(
-      "Harmos::remap::classifyMaterials", RangePolicy(0, in.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        int const first = in.pairs.offset(cell);
-        int code = -2;
-        if (in.pairs.cell_kind(cell) == PureCell)
-        {
-          int const material = in.pairs.material(first);
-          code = in.isRigid(material) ? -2 : material;
-        }
-        else
-        {
-          for (int pair = first; pair < in.pairs.offset(cell + 1); ++pair)
-            if (!in.isRigid(in.pairs.material(pair)))
-              code = -1;
-        }
-        classes.pure_material(cell) = code;
-      });
-}
-
-void classifyBoundaries(Input const &in, Classes &classes)
+View<int *> openFaces(Input const &in)
 {
   if (!hasOpenBoundary(in))
-    return;
+    return {};
   View<int *> const open = scratch<int *>("open", in.mesh.num_cells);
-  classes.open = open;
+  View<int *> const around = scratch<int *>("openAround", in.mesh.num_cells);
   Kokkos::parallel_for(
-      "Harmos::remap::classifyBoundaries", RangePolicy(0, in.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
+      "Harmos::remap::openFaces", RangePolicy(0, in.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
         int bits = 0;
         for (int k = 0; k < 4; ++k)
           bits |= faceOpenBit(in, cell, k);
         open(cell) = bits;
       });
-}
-
-void classifyNodes(Input const &in, Classes const &classes)
-{
-  bool const any_open = classes.open.extent(0) > 0;
   Kokkos::parallel_for(
-      "Harmos::remap::classifyNodes", RangePolicy(0, in.mesh.num_nodes), KOKKOS_LAMBDA(int node) {
-        int const begin = in.mesh.node_cell.offset(node);
-        int const end = in.mesh.node_cell.offset(node + 1);
-        int const material = begin < end ? classes.pure_material(in.mesh.node_cell.item(begin) / 4) : -2;
-        bool uniform = material >= 0;
-        bool deformable = false;
-        int open = 0;
-        for (int j = begin; j < end; ++j)
-        {
-          int const cell = in.mesh.node_cell.item(j) / 4;
-          int const corner = in.mesh.node_cell.item(j) % 4;
-          int const code = classes.pure_material(cell);
-          uniform = uniform && code == material;
-          deformable = deformable || code >= -1;
-          if (any_open && classes.open(cell) != 0)
-            open |= faceOpenBit(in, cell, corner) | faceOpenBit(in, cell, (corner + 3) % 4);
-        }
-        int const kind = uniform && open == 0                    ? SweptNode
-                         : deformable || (open & InflowBit) != 0 ? InterfaceNode
-                                                                 : StillNode;
-        classes.node_return(node) = kind;
+      "Harmos::remap::openAround", RangePolicy(0, in.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
+        int bits = open(cell) % own_open_bits;
+        for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
+          bits |= open(in.mesh.cell_neighbour.item(j)) % own_open_bits;
+        around(cell) = open(cell) + own_open_bits * bits;
       });
+  return around;
 }
 
-/// Rigid pairs are built anew wherever a body was or is, with or without deformable material around.
-KOKKOS_INLINE_FUNCTION bool holdsRigid(Input const &in, int cell)
+/// What each class is made of: materials of cells -> nodes -> cells -> nodes.
+struct Classifier
 {
-  if (in.rigid.offset.extent(0) > 0 && in.rigid.offset(cell) < in.rigid.offset(cell + 1))
-    return true;
-  for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
-    if (in.isRigid(in.pairs.material(pair)))
-      return true;
-  return false;
+  Input in;
+  Classes classes;
+
+  /// Material of a pure cell, and whether the cell holds a rigid body: these are built anew wherever one was or is,
+  /// with or without deformable material around.
+  KOKKOS_INLINE_FUNCTION int material(int cell, int &rigid) const
+  {
+    int const first = in.pairs.offset(cell), end = in.pairs.offset(cell + 1);
+    rigid = in.rigid.offset.extent(0) > 0 && in.rigid.offset(cell) < in.rigid.offset(cell + 1) ? RigidBit : 0;
+    int code = -2;
+    bool const pure = in.pairs.cell_kind(cell) == PureCell;
+    for (int pair = first; pair < end; ++pair)
+    {
+      int const of_pair = in.pairs.material(pair);
+      if (in.isRigid(of_pair))
+        rigid = RigidBit;
+      else
+        code = pure ? of_pair : -1;
+    }
+    return code;
+  }
+
+  /// Whether a cell's materials are another class than before, with the new one in `code` and `rigid`.
+  KOKKOS_INLINE_FUNCTION bool changes(int cell, int &code, int &rigid) const
+  {
+    code = material(cell, rigid);
+    return code != classes.pure_material(cell) || rigid != (classes.flags(cell) & RigidBit);
+  }
+
+  KOKKOS_INLINE_FUNCTION void setMaterial(int cell, int code, int rigid) const
+  {
+    classes.pure_material(cell) = code;
+    classes.flags(cell) = (classes.flags(cell) & ~RigidBit) | rigid;
+  }
+
+  KOKKOS_INLINE_FUNCTION void classifyNode(int node) const
+  {
+    bool const any_open = classes.open.extent(0) > 0;
+    int const begin = in.mesh.node_cell.offset(node);
+    int const end = in.mesh.node_cell.offset(node + 1);
+    int const first = begin < end ? classes.pure_material(in.mesh.node_cell.item(begin) / 4) : -2;
+    bool uniform = first >= 0;
+    bool deformable = false;
+    int open = 0;
+    for (int j = begin; j < end; ++j)
+    {
+      int const cell = in.mesh.node_cell.item(j) / 4;
+      int const corner = in.mesh.node_cell.item(j) % 4;
+      int const code = classes.pure_material(cell);
+      uniform = uniform && code == first;
+      deformable = deformable || code >= -1;
+      if (any_open && classes.open(cell) % own_open_bits != 0)
+        open |= faceOpenBit(in, cell, corner) | faceOpenBit(in, cell, (corner + 3) % 4);
+    }
+    classes.node_return(node) = uniform && open == 0                    ? SweptNode
+                                : deformable || (open & InflowBit) != 0 ? InterfaceNode
+                                                                        : StillNode;
+  }
+
+  KOKKOS_INLINE_FUNCTION void classifyCell(int cell) const
+  {
+    int const code = classes.pure_material(cell);
+    int const rigid = classes.flags(cell) & RigidBit;
+    int flags = rigid | (rigid != 0 ? InterfaceCellBit : 0) | (code >= 0 ? PureCellBit : 0);
+    for (int k = 0; k < 4; ++k)
+    {
+      int const kind = classes.node_return(in.mesh.cell_node(cell, k));
+      flags |= kind == InterfaceNode ? InterfaceCellBit : 0;
+      if (code < 0)
+        continue;
+      int const face = in.mesh.face_neighbour(cell, k);
+      flags |= kind == SweptNode ? SweptCornerBit << k : 0;
+      flags |= face >= 0 ? NeighbourBit << k : 0;
+      flags |= face >= 0 && classes.pure_material(face / 4) == code ? SameBeyondBit << k : 0;
+    }
+    classes.flags(cell) = flags;
+  }
+
+  KOKKOS_INLINE_FUNCTION void finishNode(int node) const
+  {
+    bool final = true, swept = false;
+    for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
+    {
+      int const flags = classes.flags(in.mesh.node_cell.item(j) / 4);
+      final = final && (flags & InterfaceCellBit) == 0;
+      swept = swept || (flags & all_swept_corners) != 0;
+    }
+    classes.node_final(node) = final ? 1 : 0;
+    bool const free = in.conditions.node_index(node) < 0 && in.mesh.node_owned(node) != 0;
+    bool const plain = final && free && classes.node_return(node) == SweptNode;
+    classes.node_sweep(node) = plain ? PlainNode : swept ? SpecialNode : UntouchedNode;
+  }
+};
+
+void classifyAll(Classifier const &c)
+{
+  int const cells = c.in.mesh.num_cells, nodes = c.in.mesh.num_nodes;
+  Kokkos::parallel_for(
+      "Harmos::remap::classifyMaterials", RangePolicy(0, cells), KOKKOS_LAMBDA(int cell) {
+        int rigid;
+        int const code = c.material(cell, rigid);
+        c.classes.flags(cell) = rigid;
+        c.classes.pure_material(cell) = code;
+      });
+  Kokkos::parallel_for(
+      "Harmos::remap::classifyNodes", RangePolicy(0, nodes), KOKKOS_LAMBDA(int node) { c.classifyNode(node); });
+  Kokkos::parallel_for(
+      "Harmos::remap::classifyCells", RangePolicy(0, cells), KOKKOS_LAMBDA(int cell) { c.classifyCell(cell); });
+  Kokkos::parallel_for(
+      "Harmos::remap::finishNodes", RangePolicy(0, nodes), KOKKOS_LAMBDA(int node) { c.finishNode(node); });
 }
 
-/// Ascending list of the cells whose mark is set; index(cell) is the place in it or -1.
-int listCells(View<int *> const &index, View<int *> &list)
+/// The cells whose materials have changed: their list, and the new materials in place. Returns their number.
+int changedCells(Classifier const &c)
 {
-  int const cells = static_cast<int>(index.extent(0));
-  int total = 0;
-  View<int *> const filled = scratch<int *>("cellList", cells);
+  View<int *> const list = c.classes.changed;
+  int count = 0;
   Kokkos::parallel_scan(
-      "Harmos::remap::listCells", RangePolicy(0, cells),
+      "Harmos::remap::changedCells", RangePolicy(0, c.in.mesh.num_cells),
       KOKKOS_LAMBDA(int cell, int &sum, bool last) {
-        int const mark = index(cell);
+        int code, rigid;
+        if (!c.changes(cell, code, rigid))
+          return;
         if (last)
         {
-          index(cell) = mark != 0 ? sum : -1;
-          if (mark != 0)
-            filled(sum) = cell;
+          list(sum) = cell;
+          c.setMaterial(cell, code, rigid);
         }
-        sum += mark;
+        ++sum;
       },
-      total);
-  list = filled;
-  return total;
+      count);
+  return count;
 }
 
-/// Flags of the pure cells, marks of the interface cells. Returns the number of cells with a swept node.
-int markCells(Input const &in, Classes const &classes)
+/// Classes around the changed cells. Several may write the same value to a place.
+void classifyAround(Classifier const &c, int count)
 {
-  int num_swept = 0;
-  Kokkos::parallel_reduce(
-      "Harmos::remap::markCells", RangePolicy(0, in.mesh.num_cells),
-      KOKKOS_LAMBDA(int cell, int &sum) {
-        int const material = classes.pure_material(cell);
-        int flags = material >= 0 ? PureCellBit : 0;
-        int interface = holdsRigid(in, cell) ? 1 : 0;
-        for (int k = 0; k < 4; ++k)
-        {
-          int const kind = classes.node_return(in.mesh.cell_node(cell, k));
-          interface |= kind == InterfaceNode ? 1 : 0;
-          if (material < 0)
-            continue;
-          int const face = in.mesh.face_neighbour(cell, k);
-          flags |= kind == SweptNode ? SweptCornerBit << k : 0;
-          flags |= face >= 0 ? NeighbourBit << k : 0;
-          flags |= face >= 0 && classes.pure_material(face / 4) == material ? SameBeyondBit << k : 0;
-        }
-        classes.flags(cell) = flags;
-        classes.interface_index(cell) = interface;
-        sum += (flags & all_swept_corners) != 0 ? 1 : 0;
-      },
-      num_swept);
-  return num_swept;
-}
-
-void markFinalNodes(Input const &in, Classes const &classes)
-{
+  View<int *> const list = c.classes.changed;
+  Mesh const mesh = c.in.mesh;
+  Rows const row = mesh.cell_neighbour;
   Kokkos::parallel_for(
-      "Harmos::remap::markFinalNodes", RangePolicy(0, in.mesh.num_nodes), KOKKOS_LAMBDA(int node) {
-        bool final = true;
-        for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
-          final = final && classes.interface_index(in.mesh.node_cell.item(j) / 4) < 0;
-        classes.node_final(node) = final ? 1 : 0;
-        bool const free = in.conditions.node_index(node) < 0 && in.mesh.node_owned(node) != 0;
-        classes.node_plain(node) = final && free && classes.node_return(node) == SweptNode ? 1 : 0;
+      "Harmos::remap::classifyNodesAround", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < 4; ++k)
+          c.classifyNode(mesh.cell_node(list(i), k));
       });
+  Kokkos::parallel_for(
+      "Harmos::remap::classifyCellsAround", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
+        c.classifyCell(list(i));
+        for (int j = row.offset(list(i)); j < row.offset(list(i) + 1); ++j)
+          c.classifyCell(row.item(j));
+      });
+  Kokkos::parallel_for(
+      "Harmos::remap::finishNodesAround", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < 4; ++k)
+          c.finishNode(mesh.cell_node(list(i), k));
+        for (int j = row.offset(list(i)); j < row.offset(list(i) + 1); ++j)
+          for (int k = 0; k < 4; ++k)
+            c.finishNode(mesh.cell_node(row.item(j), k));
+      });
+}
+
+/// Ascending list of the interface cells.
+void listInterfaceCells(Input const &in, Classes &classes)
+{
+  Classes const c = classes;
+  Kokkos::parallel_scan(
+      "Harmos::remap::listInterfaceCells", RangePolicy(0, in.mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &sum, bool last) {
+        bool const interface = (c.flags(cell) & InterfaceCellBit) != 0;
+        if (last)
+        {
+          c.interface_index(cell) = interface ? sum : -1;
+          if (interface)
+            c.interface_cell(sum) = cell;
+        }
+        sum += interface ? 1 : 0;
+      },
+      classes.num_interface);
+  Kokkos::parallel_reduce(
+      "Harmos::remap::countSweptCells", RangePolicy(0, in.mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &sum) { sum += (c.flags(cell) & all_swept_corners) != 0 ? 1 : 0; },
+      classes.num_swept);
 }
 
 } // namespace
@@ -181,17 +251,30 @@ Classes classify(Input const &in)
   Classes classes;
   classes.node_return = scratch<int *>("nodeReturn", in.mesh.num_nodes);
   classes.node_final = scratch<int *>("nodeFinal", in.mesh.num_nodes);
-  classes.node_plain = scratch<int *>("nodePlain", in.mesh.num_nodes);
+  classes.node_sweep = scratch<int *>("nodeSweep", in.mesh.num_nodes);
   classes.pure_material = scratch<int *>("pureMaterial", cells);
   classes.interface_index = scratch<int *>("interfaceIndex", cells);
+  classes.interface_cell = scratch<int *>("interfaceCell", cells);
   classes.flags = scratch<int *>("sweptFlags", cells);
-  classifyMaterials(in, classes);
-  classifyBoundaries(in, classes);
-  classifyNodes(in, classes);
-  classes.num_swept = markCells(in, classes);
-  classes.num_interface = listCells(classes.interface_index, classes.interface_cell);
-  markFinalNodes(in, classes);
+  classes.changed = scratch<int *>("changedCells", cells);
+  classes.open = openFaces(in);
+  classifyAll({in, classes});
+  listInterfaceCells(in, classes);
   return classes;
+}
+
+void updateClasses(Input const &in, Classes &classes)
+{
+  constexpr int much = 64; // a changed cell costs some fifty visits of a node or cell
+  Classifier const c{in, classes};
+  int const count = changedCells(c);
+  if (count == 0)
+    return;
+  if (count > in.mesh.num_cells / much)
+    classifyAll(c);
+  else
+    classifyAround(c, count);
+  listInterfaceCells(in, classes);
 }
 
 } // namespace RemapDetail

@@ -3,6 +3,7 @@
 #define HARMOS_REMAP_INPUT_HPP
 
 #include <Harmos_Remap.hpp>
+#include <detail/Harmos_NeighbourLinks.hpp>
 
 namespace Harmos
 {
@@ -23,6 +24,7 @@ struct Input
   double dt;
   RigidRows rigid;
   RemapOptions options;
+  NeighbourLinks links;
 
   KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
   KOKKOS_INLINE_FUNCTION Vector2 node(int n) const { return {mesh.node_position(n, 0), mesh.node_position(n, 1)}; }
@@ -36,10 +38,19 @@ View<T> scratch(char const *label, std::size_t extent)
   return View<T>(Kokkos::view_alloc(std::string("Harmos::remap::") + label, Kokkos::WithoutInitializing), extent);
 }
 
-/// Counts -> offsets, in place: offset(i) counts row i on entry, offset(rows) is set. Returns the total.
-inline int exclusiveScan(View<int *> const &offset)
+/// Make room for `extent` rows of a kept array; contents are lost where it has to grow.
+template <class T>
+void grow(T &view, char const *label, std::size_t extent)
 {
-  int const rows = static_cast<int>(offset.extent(0)) - 1;
+  if (view.extent(0) >= extent && view.extent(0) > 0)
+    return;
+  view = {};
+  view = scratch<typename T::data_type>(label, extent + extent / 4 + 1);
+}
+
+/// Counts -> offsets, in place: offset(i), i < rows, counts row i on entry; offset(rows) is set. Returns the total.
+inline int exclusiveScan(View<int *> const &offset, int rows)
+{
   int total = 0;
   Kokkos::parallel_scan(
       "Harmos::remap::exclusiveScan", RangePolicy(0, rows + 1),
@@ -51,17 +62,6 @@ inline int exclusiveScan(View<int *> const &offset)
       },
       total);
   return total;
-}
-
-/// Sum of one column of a table.
-template <class Table>
-double sumColumn(Table const &table, int column)
-{
-  double sum = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::remap::sumColumn", RangePolicy(0, static_cast<int>(table.extent(0))),
-      KOKKOS_LAMBDA(int i, double &s) { s += table(i, column); }, sum);
-  return sum;
 }
 
 /// Area and area centroid of a quadrilateral.

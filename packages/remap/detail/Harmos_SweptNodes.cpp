@@ -94,9 +94,16 @@ struct SweptNodesFunctor
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int node, double &impulse_x, double &impulse_y, double &kinetic) const
   {
-    if (stage.node_plain[node] == 0)
+    if (stage.node_sweep[node] != PlainNode)
     {
-      special(node, impulse_x, impulse_y, kinetic);
+      if (stage.node_sweep[node] == SpecialNode)
+        special(node, impulse_x, impulse_y, kinetic);
+      else
+        for (int dof = stage.first_dof[node]; dof < stage.first_dof[node + 1]; ++dof)
+        {
+          stage.velocity1(dof, 0) = stage.half(dof, 0);
+          stage.velocity1(dof, 1) = stage.half(dof, 1);
+        }
       return;
     }
     Gathered const g = gatherPure(stage.first_item[node], stage.first_item[node + 1]);

@@ -101,7 +101,7 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
       pair_material(in.pairs.material.data()), first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node),
       materials(in.materials.data()), record(in.state.record), half(in.half), kinetic(kinetic_before.data()),
       flags(classes.flags.data()), pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
-      node_final(classes.node_final.data()), node_plain(classes.node_plain.data()), mask(window.mask),
+      node_final(classes.node_final.data()), node_sweep(classes.node_sweep.data()), mask(window.mask),
       cell(window.cell), face_centroid(window.face_centroid), increment(window.increment), flux(window.flux),
       mass(window.mass.data()), record1(record_after), velocity1(velocity_after), kinetic1(kinetic_after.data())
 {

@@ -80,7 +80,7 @@ struct SweptStage
   RowPointer<double, 2> half;
   double const *kinetic; // kinetic energy per mass of the pairs; null: not carried
 
-  int const *flags, *pure_material, *node_return, *node_final, *node_plain; // of Classes
+  int const *flags, *pure_material, *node_return, *node_final, *node_sweep; // of Classes
 
   int mask;
   RowPointer<double, 8> cell, face_centroid, increment; // of the window

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_SegmentBins.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <tuple>
+#include <vector>
+
+using namespace Harmos;
+
+namespace
+{
+
+InterfaceSegments segmentsAt(std::vector<Vector2> const &midpoint)
+{
+  InterfaceSegments s;
+  s.count = static_cast<int>(midpoint.size());
+  s.segment = View<InterfaceSegment *>("segment", midpoint.size());
+  auto const host = Kokkos::create_mirror_view(s.segment);
+  for (int i = 0; i < s.count; ++i)
+    host(i).midpoint = midpoint[static_cast<std::size_t>(i)];
+  Kokkos::deep_copy(s.segment, host);
+  return s;
+}
+
+std::vector<Vector2> scattered(int count)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> coordinate(-3.0, 5.0);
+  std::vector<Vector2> x;
+  for (int i = 0; i < count; ++i)
+    x.push_back({coordinate(random), coordinate(random)});
+  return x;
+}
+
+/// What a walk meets, and what it should: by bin row, bin column, number.
+std::vector<int> walked(SegmentBins const &bins, Vector2 const &low, Vector2 const &high)
+{
+  std::vector<int> met;
+  bins.forEach(low, high, [&](int, BinnedSegment const &s) { met.push_back(s.segment); });
+  return met;
+}
+
+std::vector<int> expected(SegmentBins const &bins, std::vector<Vector2> const &x, Vector2 const &low,
+                          Vector2 const &high)
+{
+  std::vector<std::tuple<int, int, int>> inside;
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    int const column = bins.index(x[i][0]), row = bins.index(x[i][1]);
+    if (bins.index(low[0]) <= column && column <= bins.index(high[0]) && bins.index(low[1]) <= row &&
+        row <= bins.index(high[1]))
+      inside.push_back({row, column, static_cast<int>(i)});
+  }
+  std::sort(inside.begin(), inside.end());
+  std::vector<int> number;
+  for (auto const &s : inside)
+    number.push_back(std::get<2>(s));
+  return number;
+}
+
+void checkWalks(std::vector<Vector2> const &x, bool hashed)
+{
+  SegmentBins const bins = binSegments(segmentsAt(x), 0.3);
+  EXPECT_EQ(bins.hashed, hashed);
+  std::size_t met = 0;
+  for (Vector2 const &centre : scattered(40))
+  {
+    Vector2 const low{centre[0] - 0.7, centre[1] - 0.4}, high{centre[0] + 0.5, centre[1] + 0.9};
+    EXPECT_EQ(walked(bins, low, high), expected(bins, x, low, high));
+    met += walked(bins, low, high).size();
+  }
+  EXPECT_GT(met, 100u);
+}
+
+} // namespace
+
+TEST(SegmentBins, walkOverABox_meetsItsBinsByRowColumnAndNumber)
+{
+  checkWalks(scattered(500), false);
+}
+
+TEST(SegmentBins, bodiesFarApart_areHashedAndMetInTheSameOrder)
+{
+  std::vector<Vector2> x = scattered(500);
+  x.push_back({4.0e6, -3.0e6});
+  checkWalks(x, true);
+}
+
+TEST(SegmentBins, noSegments_walksMeetNothing)
+{
+  SegmentBins const bins = binSegments(segmentsAt({}), 0.0);
+  EXPECT_TRUE(walked(bins, {-1.0, -1.0}, {1.0, 1.0}).empty());
+}

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_DONOR_POLYNOMIAL_HPP
+#define HARMOS_DONOR_POLYNOMIAL_HPP
+
+#include <detail/Harmos_Donors.hpp>
+
+#include <Harmos_Moments.hpp>
+#include <Harmos_Select.hpp>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+/// Linear polynomials of a donor's fields: density and deviator about the centroid c, primitives about the mass
+/// centroid c + e.
+struct DonorPolynomial
+{
+  StageFields mean, x, y; // mean, gradient
+  Vector2 mass_offset;    // e
+};
+
+KOKKOS_INLINE_FUNCTION DonorPolynomial constantPolynomial(StageFields const &mean)
+{
+  return {mean, stageFields(0.0), stageFields(0.0), {0.0, 0.0}};
+}
+
+/// Vertices relative to the donor's centroid.
+struct MovedVertices
+{
+  int size;
+  double x[max_region_vertices], y[max_region_vertices];
+};
+
+KOKKOS_INLINE_FUNCTION MovedVertices verticesAbout(Region const &region, Vector2 const &centre)
+{
+  MovedVertices v;
+  v.size = region.size;
+  for (int i = 0; i < region.size; ++i)
+  {
+    v.x[i] = region[i][0] - centre[0];
+    v.y[i] = region[i][1] - centre[1];
+  }
+  return v;
+}
+
+/// The largest part of a gradient, at most all, that keeps q + g.(x - shift) within range at all vertices.
+template <class T>
+KOKKOS_INLINE_FUNCTION T limitedPart(MovedVertices const &v, T const &q, T const &gx, T const &gy, T const &shift,
+                                     T const &lower, T const &upper)
+{
+  T most = 0.0, least = 0.0;
+  for (int i = 0; i < v.size; ++i)
+  {
+    T const delta = T(v.x[i]) * gx + T(v.y[i]) * gy - shift;
+    most = Math::max(most, delta);
+    least = Math::min(least, delta);
+  }
+  T const above = upper - q, below = lower - q;
+  auto const high = most > above;
+  auto const low = below > least;
+  T const up = select(high, T(above / select(high, most, T(1.0))), T(1.0));
+  T const down = select(low, T(below / select(low, least, T(1.0))), T(1.0));
+  return Math::min(up, down);
+}
+
+/// Finds polynomials: gradients from least squares over the same-material pairs of the vertex neighbours, limited
+/// (Barth & Jespersen, AIAA 89-0366) at all vertices of the donor's polygon to their range.
+///
+/// Gradients of the corner velocities come from velocities before stage 1, so that they need no wider halo.
+struct PolynomialFinder
+{
+  Input in;
+  Classes classes;
+  StageState stage;
+  Donors donors;
+
+  struct Gradient
+  {
+    StageFields x, y, lower, upper;
+  };
+
+  /// A same-material pair of a neighbour between the stages.
+  struct Neighbour
+  {
+    StageFields value; // corner velocities before stage 1, in the order of the donor's corners
+    double volume;
+    Vector2 centroid;
+  };
+
+  KOKKOS_INLINE_FUNCTION bool fromDonor(int index, int material, int rotation, Neighbour &n) const
+  {
+    int const other = donors.find(index, material);
+    if (other < 0)
+      return false;
+    n.volume = donors.shape(other, 0);
+    n.centroid = {donors.shape(other, 1), donors.shape(other, 2)};
+    n.value = {FieldPack(&donors.value(other, 0)), rotatedCorners(&donors.half(other, 0), rotation)};
+    return true;
+  }
+
+  /// A pure cell that is at home.
+  KOKKOS_INLINE_FUNCTION bool fromCell(int cell, int material, int rotation, Neighbour &n) const
+  {
+    if (classes.pure_material(cell) != material)
+      return false;
+    int const pair = in.pairs.offset(cell);
+    n.volume = in.mesh.cell_area(cell);
+    n.centroid = areaCentroid(cellQuadrilateral(in.mesh, cell).vertex).centroid;
+    FieldPack record(&stage.record(pair, 0));
+    record.set<DensityField>(stage.record(pair, Mass) / n.volume);
+    record.set<KineticField>(stage.kineticEnergy(in.pairs, pair));
+    double corner[8];
+    cornerVelocities(in.pairs, in.half, pair, corner);
+    n.value = {record, rotatedCorners(corner, rotation)};
+    return true;
+  }
+
+  /// Least-squares gradient weighted by filled part over distance squared; along a line where all neighbours lie on
+  /// one. Widens the range by the neighbours' values.
+  KOKKOS_INLINE_FUNCTION void gradient(int cell, int material, Vector2 const &centroid, StageFields const &q,
+                                       Gradient &g) const
+  {
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    StageFields bx = stageFields(0.0), by = stageFields(0.0);
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
+    {
+      int const neighbour = in.mesh.cell_neighbour.item(j);
+      int const index = classes.interface_index(neighbour);
+      int const rotation = in.links.rotation(j);
+      Neighbour n;
+      if (!(index >= 0 ? fromDonor(index, material, rotation, n) : fromCell(neighbour, material, rotation, n)))
+        continue;
+      Vector2 const d = n.centroid - centroid;
+      double const distance2 = dot(d, d);
+      if (!(distance2 > 0.0) || !(n.volume > 0.0))
+        continue;
+      double const w = n.volume / (in.mesh.cell_area(neighbour) * distance2);
+      xx += w * d[0] * d[0];
+      xy += w * d[0] * d[1];
+      yy += w * d[1] * d[1];
+      StageFields const difference = n.value - q;
+      addTimes(bx, w * d[0], difference);
+      addTimes(by, w * d[1], difference);
+      g.lower = {lesser(g.lower.record, n.value.record), lesser(g.lower.corner, n.value.corner)};
+      g.upper = {greater(g.upper.record, n.value.record), greater(g.upper.corner, n.value.corner)};
+    }
+    double const trace = xx + yy;
+    double const det = xx * yy - xy * xy;
+    bool const line = det < 1e-6 * trace * trace;
+    double const scale = trace > 0.0 ? 1.0 / (line ? trace : det) : 0.0;
+    g.x = g.y = stageFields(0.0);
+    addTimes(g.x, scale * (line ? 1.0 : yy), bx);
+    addTimes(g.x, scale * (line ? 0.0 : -xy), by);
+    addTimes(g.y, scale * (line ? 1.0 : xx), by);
+    addTimes(g.y, scale * (line ? 0.0 : -xy), bx);
+  }
+
+  /// Scale the gradient of eight fields; those of weight one in `by_mass` are limited about the mass centroid.
+  KOKKOS_INLINE_FUNCTION static void limit(MovedVertices const &v, Vector2 const &mass_offset, FieldPack const &by_mass,
+                                           FieldPack const &q, FieldPack const &lower, FieldPack const &upper,
+                                           FieldPack &gx, FieldPack &gy)
+  {
+    FieldPack const ex = FieldPack(mass_offset[0]) * by_mass, ey = FieldPack(mass_offset[1]) * by_mass;
+    FieldPack const shift = gx * ex + gy * ey;
+    for (int p = 0; p < FieldPack::parts; ++p)
+    {
+      Pack const a =
+          limitedPart<Pack>(v, q.part[p], gx.part[p], gy.part[p], shift.part[p], lower.part[p], upper.part[p]);
+      gx.part[p] = a * gx.part[p];
+      gy.part[p] = a * gy.part[p];
+    }
+  }
+
+  /// Of a moving donor of `cell`; vertices about its centroid.
+  KOKKOS_INLINE_FUNCTION DonorPolynomial polynomial(int donor, int cell, MovedVertices const &v) const
+  {
+    DonorPolynomial result = constantPolynomial(loadStageFields(&donors.value(donor, 0)));
+    if (in.options.order == 1)
+      return result;
+    StageFields const &q = result.mean;
+    // Differences of corner velocities are taken between like times.
+    StageFields const before{q.record, FieldPack(&donors.half(donor, 0))};
+    Gradient g;
+    g.lower = {q.record, lesser(q.corner, before.corner)};
+    g.upper = {q.record, greater(q.corner, before.corner)};
+    gradient(cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before, g);
+    double const rho = q.record[DensityField];
+    double gx = g.x.record[DensityField], gy = g.y.record[DensityField];
+    double const alpha =
+        limitedPart<double>(v, rho, gx, gy, 0.0, g.lower.record[DensityField], g.upper.record[DensityField]);
+    gx *= alpha;
+    gy *= alpha;
+    double const per_mass = 1.0 / (rho * donors.shape(donor, 0));
+    Vector2 const e{per_mass * (donors.shape(donor, 3) * gx + donors.shape(donor, 4) * gy),
+                    per_mass * (donors.shape(donor, 4) * gx + donors.shape(donor, 5) * gy)};
+    limit(v, e, fieldWeights(0.0, 1.0), q.record, g.lower.record, g.upper.record, g.x.record, g.y.record);
+    limit(v, e, FieldPack(1.0), q.corner, g.lower.corner, g.upper.corner, g.x.corner, g.y.corner);
+    g.x.record.set<DensityField>(gx);
+    g.y.record.set<DensityField>(gy);
+    result.x = g.x;
+    result.y = g.y;
+    result.mass_offset = e;
+    return result;
+  }
+};
+
+} // namespace RemapDetail
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_OVERLAY_MOMENTS_HPP
+#define HARMOS_OVERLAY_MOMENTS_HPP
+
+#include <Harmos_Mesh.hpp>
+#include <Harmos_Moments.hpp>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+KOKKOS_INLINE_FUNCTION Vector2 acceptorOrigin(Mesh const &mesh, int cell)
+{
+  int const node = mesh.cell_node(cell, 0);
+  return {mesh.node_position(node, 0), mesh.node_position(node, 1)};
+}
+
+/// Moments of a simple polygon about the origin: Harmos::moments for vertices in two arrays.
+KOKKOS_INLINE_FUNCTION Moments<2> momentsOfVertices(int size, double const *x, double const *y)
+{
+  Moments<2> m;
+  double ax = x[size - 1], ay = y[size - 1];
+  for (int i = 0; i < size; ++i)
+  {
+    double const bx = x[i], by = y[i];
+    double const c = ax * by - ay * bx;
+    m.value[0] += c;
+    m.value[1] += c * (ax + bx);
+    m.value[2] += c * (ay + by);
+    m.value[3] += c * (ax * ax + bx * bx + ax * bx);
+    m.value[4] += c * (ax * ay + bx * by + 0.5 * (ax * by + bx * ay));
+    m.value[5] += c * (ay * ay + by * by + ay * by);
+    ax = bx;
+    ay = by;
+  }
+  m.value[0] *= 0.5;
+  for (int i = 1; i < Moments<2>::count; ++i)
+    m.value[i] *= i < 3 ? 1.0 / 6.0 : 1.0 / 12.0;
+  return m;
+}
+
+/// A cell's corners relative to a point. Coordinates one by one: pairs of them, written singly and read together, would
+/// stall the processor.
+struct Window
+{
+  double x[4], y[4];
+};
+
+KOKKOS_INLINE_FUNCTION Window windowAbout(Mesh const &mesh, int cell, Vector2 const &centre)
+{
+  Window w;
+  for (int k = 0; k < 4; ++k)
+  {
+    int const node = mesh.cell_node(cell, k);
+    w.x[k] = mesh.node_position(node, 0) - centre[0];
+    w.y[k] = mesh.node_position(node, 1) - centre[1];
+  }
+  return w;
+}
+
+/// Moments about the origin of the part of a polygon of at most Capacity vertices in a convex window, by clipping
+/// (Harmos_Clip.hpp) between two buffers; `whole` tells that nothing was cut off: then they are not computed.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION Moments<2> momentsInside(int size, double const *x, double const *y, Window const &window,
+                                                bool &whole)
+{
+  constexpr int capacity = 6 * Capacity; // a cut makes at most 3 n / 2 vertices of n, where motion has bent the region
+  double buffer_x[2][capacity], buffer_y[2][capacity], distance[capacity];
+  int turn = 0;
+  whole = false;
+  bool cut = false;
+  for (int k = 0; k < 4; ++k)
+  {
+    double const corner_x = window.x[k], corner_y = window.y[k];
+    double const nx = window.y[(k + 1) & 3] - corner_y, ny = corner_x - window.x[(k + 1) & 3];
+    bool inside = true, outside = true;
+    for (int i = 0; i < size; ++i)
+    {
+      double const d = nx * (x[i] - corner_x) + ny * (y[i] - corner_y);
+      distance[i] = d;
+      inside = inside && d <= 0.0;
+      outside = outside && d >= 0.0;
+    }
+    if (inside)
+      continue;
+    if (outside)
+      return {};
+    cut = true;
+    double *const next_x = buffer_x[turn], *const next_y = buffer_y[turn];
+    turn ^= 1;
+    // Without branches, which would be mispredicted every other time: what does not count is overwritten.
+    int count = 0;
+    double da = distance[size - 1], ax = x[size - 1], ay = y[size - 1];
+    for (int i = 0; i < size; ++i)
+    {
+      double const db = distance[i], bx = x[i], by = y[i];
+      bool const crosses = ((da < 0.0) & (db > 0.0)) | ((da > 0.0) & (db < 0.0));
+      double const s = da / (crosses ? da - db : 1.0);
+      next_x[count] = ax + s * (bx - ax);
+      next_y[count] = ay + s * (by - ay);
+      count += crosses ? 1 : 0;
+      next_x[count] = bx;
+      next_y[count] = by;
+      count += db <= 0.0 ? 1 : 0;
+      da = db;
+      ax = bx;
+      ay = by;
+    }
+    if (count < 3)
+      return {};
+    size = count;
+    x = next_x;
+    y = next_y;
+  }
+  whole = !cut;
+  return cut ? momentsOfVertices(size, x, y) : Moments<2>{};
+}
+
+} // namespace RemapDetail
+} // namespace Harmos
+
+#endif
