@@ -52,6 +52,41 @@ KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Vect
   }
 }
 
+/// Whether two edges of a closed polygon cross.
+KOKKOS_INLINE_FUNCTION bool isFolded(Region const &region)
+{
+  bool concave = false;
+  for (int i = 0; i < region.size && !concave; ++i)
+  {
+    Vector2 const b = region[region.next(i)];
+    concave = cross(b - region[i], region[region.next(region.next(i))] - b) < 0.0;
+  }
+  if (!concave)
+    return false;
+  for (int i = 0; i < region.size; ++i)
+    for (int j = i + 2; j < region.size; ++j)
+    {
+      if (i == 0 && j == region.size - 1)
+        continue;
+      Vector2 const a = region[i], b = region[region.next(i)], c = region[j], d = region[region.next(j)];
+      if (cross(d - c, a - c) * cross(d - c, b - c) < 0.0 && cross(b - a, c - a) * cross(b - a, d - a) < 0.0)
+        return true;
+    }
+  return false;
+}
+
+/// A needle thinner than the bilinear map bends would fold: it moves as a whole, by the displacement of its centroid.
+KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, Vector2 const u[4], Region &region)
+{
+  region = in.regions.region(in.mesh, in.pairs, pair);
+  Vector2 const centroid = region[0] + moments<1>(region, region[0]).centroid();
+  double N[4];
+  shapeFunctionsAt(cellQuadrilateral(in.mesh, cell), centroid, N);
+  Vector2 const shift = (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]);
+  for (int i = 0; i < region.size; ++i)
+    region[i] += shift;
+}
+
 KOKKOS_INLINE_FUNCTION void setShape(Donors const &donors, int donor, double volume, Vector2 const &centroid)
 {
   donors.shape(donor, 0) = volume;
@@ -119,6 +154,8 @@ struct MoveFunctor
     {
       Region &region = donors.polygon(donor);
       moveRegion(in, cell, pair, u, region);
+      if (isFolded(region))
+        shiftRegion(in, cell, pair, u, region);
       bool const sound = setMovedShape(donors, donor, region, 1e-15 * in.mesh.cell_area(cell));
       kind = sound ? MovingDonor : DegenerateDonor;
     }
