@@ -23,7 +23,8 @@ std::string clock(double seconds)
 
 } // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(fileno(stdout)) == 1) {}
+// Launchers such as Open MPI's give their children a terminal for the output alone, wherever it really goes.
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(fileno(stdout)) == 1 && isatty(fileno(stderr)) == 1) {}
 
 void Progress::update(double fraction, double time, double dt, long long cycle, double wall_seconds,
                       double cells_per_second)

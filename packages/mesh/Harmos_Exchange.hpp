@@ -50,16 +50,6 @@ public:
   virtual void exchangeCounts(View<int *> const & /*sent*/, View<int *> const & /*received*/, int /*depth*/) const {}
   /// Packed rows of the lists of haloCells(depth); the offsets of both ends are known, the received values are filled.
   virtual void exchangePacked(PackedRows const & /*sent*/, PackedRows const & /*received*/, int /*depth*/) const {}
-
-  /// Rows of items over local cells: give every halo cell of depth <= `depth` its owner's items.
-  ///
-  /// \param offset In: rows over the local cells (num_cells + 1); only owned rows are read. Out: with halo rows; rows
-  ///               of deeper cells are empty.
-  /// \param item   In and out: (items, width) in that order. Serial: unchanged, not copied.
-  virtual void exchangeRows(View<int *> & /*offset*/, View<double **> & /*item*/, int /*depth*/) const {}
-
-  /// Repeat the last pattern: as exchangeRows with offsets that already hold the halo rows; only values travel.
-  virtual void updateRows(View<int *> const & /*offset*/, View<double **> const & /*item*/, int /*depth*/) const {}
 };
 
 /// Order-independent sum: quantised to 2^-62 of `bound` >= sum of |value| over all ranks and items.

@@ -14,10 +14,9 @@ namespace Harmos
 
 /// How ranks talk, by Tpetra: an Import from the owned cells to owned and halo cells for each depth that is asked for.
 ///
-/// Rows of any length travel through the Import's Distributor with a count for each cell. The lists of cells and the
-/// buffers are kept between calls, so that `updateRows` costs one round of messages, packing and unpacking.
-/// All methods but rank and size are collective, and a row's width is the same on all ranks. With one rank nothing
-/// is sent or copied.
+/// Rows of any length travel through the Import's Distributor, with a count for each cell. The lists of cells are kept
+/// between calls. All methods but rank and size are collective, and a row's width is the same on all ranks. With one
+/// rank nothing is sent.
 class TpetraExchange : public Exchange
 {
 public:
@@ -35,14 +34,10 @@ public:
   void sum(double *values, int count) const override;
   void sum(long long *values, int count) const override;
 
+  /// \throw std::runtime_error when depth exceeds the mesh's halo, or where a list has another number of entries.
   HaloCells haloCells(int depth) const override;
   void exchangeCounts(View<int *> const &sent, View<int *> const &received, int depth) const override;
   void exchangePacked(PackedRows const &sent, PackedRows const &received, int depth) const override;
-
-  /// New views are allocated for the result. \throw std::runtime_error when depth exceeds the mesh's halo, or where
-  /// the offsets are not those of the mesh's cells.
-  void exchangeRows(View<int *> &offset, View<double **> &item, int depth) const override;
-  void updateRows(View<int *> const &offset, View<double **> const &item, int depth) const override;
 
 private:
   struct Implementation;

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace
 {
@@ -50,117 +50,118 @@ auto onHost(V const &view)
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
 }
 
-/// Rows of the local cells: right in owned ones, one row of rubbish in halo ones.
-void makeRows(Mesh const &mesh, int width, View<int *> &offset, View<double **> &item)
+View<int *> onDevice(std::vector<int> const &values)
 {
-  auto const depth = onHost(mesh.cell_depth);
-  auto const global = onHost(mesh.cell_global);
-  offset = View<int *>("offset", mesh.num_cells + 1);
-  auto const host_offset = Kokkos::create_mirror_view(offset);
-  for (int c = 0; c < mesh.num_cells; ++c)
-    host_offset(c + 1) = host_offset(c) + (depth(c) == 0 ? rowsOf(global(c)) : 1);
-  Kokkos::deep_copy(offset, host_offset);
-  item = View<double **>("item", host_offset(mesh.num_cells), width);
-  auto const host_item = Kokkos::create_mirror_view(item);
-  Kokkos::deep_copy(host_item, -1.0);
-  for (int c = 0; c < mesh.num_cells; ++c)
-    for (int row = 0; depth(c) == 0 && row < rowsOf(global(c)); ++row)
-      for (int f = 0; f < width; ++f)
-        host_item(host_offset(c) + row, f) = valueOf(global(c), row, f, 0);
-  Kokkos::deep_copy(item, host_item);
+  View<int *> const view("values", values.size());
+  auto const host = Kokkos::create_mirror_view(view);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    host(i) = values[i];
+  Kokkos::deep_copy(view, host);
+  return view;
 }
 
-void expectRows(Mesh const &mesh, View<int *> const &offset, View<double **> const &item, int reach, int round)
+/// Room for the rows of a list of cells, of which a cell has count(its global number).
+template <class Count>
+PackedRows makeRows(Mesh const &mesh, View<int *> const &cells, int width, Count count)
 {
-  auto const depth = onHost(mesh.cell_depth);
   auto const global = onHost(mesh.cell_global);
-  auto const o = onHost(offset);
-  auto const v = onHost(item);
-  ASSERT_EQ(static_cast<int>(v.extent(0)), o(mesh.num_cells));
-  for (int c = 0; c < mesh.num_cells; ++c)
-  {
-    ASSERT_EQ(o(c + 1) - o(c), depth(c) <= reach ? rowsOf(global(c)) : 0) << "cell " << global(c);
-    for (int row = 0; row < o(c + 1) - o(c); ++row)
-      for (std::size_t f = 0; f < v.extent(1); ++f)
-        ASSERT_EQ(v(o(c) + row, f), valueOf(global(c), row, static_cast<int>(f), round)) << "cell " << global(c);
-  }
+  auto const cell = onHost(cells);
+  std::vector<int> offset(1, 0);
+  for (std::size_t i = 0; i < cell.size(); ++i)
+    offset.push_back(offset.back() + count(global(cell(i))));
+  View<double *> const value("packed", static_cast<std::size_t>(offset.back()) * width);
+  Kokkos::deep_copy(value, -1.0);
+  return {onDevice(offset), value, width};
+}
+
+/// Calls visit(packed value, cell's global number, row, column) for all values of packed rows, on the host.
+template <class Visit>
+void forAll(Mesh const &mesh, View<int *> const &cells, PackedRows const &rows, Visit visit)
+{
+  auto const global = onHost(mesh.cell_global);
+  auto const cell = onHost(cells);
+  auto const offset = onHost(rows.offset);
+  auto const value = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.value);
+  for (std::size_t i = 0; i < cell.size(); ++i)
+    for (int row = offset(i); row < offset(i + 1); ++row)
+      for (int f = 0; f < rows.width; ++f)
+        visit(value(static_cast<std::size_t>(row) * rows.width + f), global(cell(i)), row - offset(i), f);
+  Kokkos::deep_copy(rows.value, value);
 }
 
 class Rows : public ::testing::TestWithParam<bool>
 {
 };
 
-TEST_P(Rows, exchangeRows_everyHaloCellHasItsOwnersRowsBitForBit)
+TEST_P(Rows, haloCells_areOwnedOnesToSendAndEachHaloCellOnceToReceive)
 {
   Setting const s(GetParam());
   TpetraExchange const exchange(s.comm, s.mesh);
-  for (int const reach : {3, 1, 2, 3})
-    for (int const width : {1, 19})
-    {
-      View<int *> offset;
-      View<double **> item;
-      makeRows(s.mesh, width, offset, item);
-      exchange.exchangeRows(offset, item, s.comm->getSize() > 1 ? reach : 0);
-      expectRows(s.mesh, offset, item, reach, 0);
-    }
+  auto const depth = onHost(s.mesh.cell_depth);
+  for (int reach = s.comm->getSize() > 1 ? 1 : 0; reach <= s.mesh.halo; ++reach)
+  {
+    HaloCells const halo = exchange.haloCells(reach);
+    auto const sent = onHost(halo.sent);
+    for (std::size_t i = 0; i < sent.size(); ++i)
+      EXPECT_EQ(depth(sent(i)), 0);
+    std::vector<int> times(s.mesh.num_cells, 0);
+    auto const received = onHost(halo.received);
+    for (std::size_t i = 0; i < received.size(); ++i)
+      ++times[received(i)];
+    for (int c = 0; c < s.mesh.num_cells; ++c)
+      EXPECT_EQ(times[c], depth(c) > 0 && depth(c) <= reach ? 1 : 0);
+  }
 }
 
-TEST_P(Rows, updateRows_newValuesArriveWithTheKnownOffsets)
+TEST_P(Rows, exchangedCountsAndPackedRows_areTheOwnersBitForBit)
 {
   Setting const s(GetParam());
   TpetraExchange const exchange(s.comm, s.mesh);
-  int const reach = s.comm->getSize() > 1 ? 2 : 0;
-  View<int *> offset;
-  View<double **> item;
-  makeRows(s.mesh, 3, offset, item);
-  exchange.exchangeRows(offset, item, reach);
-  auto const depth = onHost(s.mesh.cell_depth);
   auto const global = onHost(s.mesh.cell_global);
-  auto const o = onHost(offset);
-  for (int round = 1; round < 4; ++round)
-  {
-    auto const host = Kokkos::create_mirror_view(item);
-    Kokkos::deep_copy(host, -1.0);
-    for (int c = 0; c < s.mesh.num_cells; ++c)
-      for (int row = 0; depth(c) == 0 && row < rowsOf(global(c)); ++row)
-        for (int f = 0; f < 3; ++f)
-          host(o(c) + row, f) = valueOf(global(c), row, f, round);
-    Kokkos::deep_copy(item, host);
-    exchange.updateRows(offset, item, reach);
-    expectRows(s.mesh, offset, item, reach, round);
-  }
+  for (int const depth : {3, 1, 2, 3})
+    for (int const width : {1, 19})
+    {
+      int const reach = s.comm->getSize() > 1 ? depth : 0;
+      HaloCells const halo = exchange.haloCells(reach);
+      std::vector<int> count;
+      auto const sent_cell = onHost(halo.sent);
+      for (std::size_t i = 0; i < sent_cell.size(); ++i)
+        count.push_back(rowsOf(global(sent_cell(i))));
+      View<int *> const received_count("received_count", halo.received.extent(0));
+      exchange.exchangeCounts(onDevice(count), received_count, reach);
+      auto const received = onHost(received_count);
+      auto const received_cell = onHost(halo.received);
+      for (std::size_t i = 0; i < received.size(); ++i)
+        ASSERT_EQ(received(i), rowsOf(global(received_cell(i))));
+
+      PackedRows const from = makeRows(s.mesh, halo.sent, width, rowsOf);
+      PackedRows const to = makeRows(s.mesh, halo.received, width, rowsOf);
+      for (int round = 0; round < 3; ++round)
+      {
+        forAll(s.mesh, halo.sent, from,
+               [&](double &value, long long cell, int row, int f) { value = valueOf(cell, row, f, round); });
+        exchange.exchangePacked(from, to, reach);
+        forAll(s.mesh, halo.received, to,
+               [&](double &value, long long cell, int row, int f)
+               { ASSERT_EQ(value, valueOf(cell, row, f, round)) << "cell " << cell; });
+      }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(MetisAndChequer, Rows, ::testing::Bool());
 
-TEST(TpetraExchange, rowsOnOneRankOnly_othersReceiveWithoutSending)
+TEST(TpetraExchange, rowsFromTheLowHalfOfTheCells_othersReceiveWithoutSending)
 {
   Setting const s(false);
   TpetraExchange const exchange(s.comm, s.mesh);
-  auto const depth = onHost(s.mesh.cell_depth);
-  auto const global = onHost(s.mesh.cell_global);
-  View<int *> offset("offset", s.mesh.num_cells + 1);
-  View<double **> item("item", s.comm->getRank() == 0 ? s.mesh.num_owned_cells : 0, 2);
-  auto const host_offset = Kokkos::create_mirror_view(offset);
-  auto const host_item = Kokkos::create_mirror_view(item);
-  for (int c = 0; c < s.mesh.num_cells; ++c)
-  {
-    bool const mine = s.comm->getRank() == 0 && depth(c) == 0;
-    host_offset(c + 1) = host_offset(c) + (mine ? 1 : 0);
-    if (mine)
-      host_item(host_offset(c), 0) = host_item(host_offset(c), 1) = static_cast<double>(global(c));
-  }
-  Kokkos::deep_copy(offset, host_offset);
-  Kokkos::deep_copy(item, host_item);
-  exchange.exchangeRows(offset, item, s.mesh.halo);
-  auto const o = onHost(offset);
-  auto const v = onHost(item);
-  for (int c = 0; c < s.mesh.num_cells; ++c)
-    for (int i = o(c); i < o(c + 1); ++i)
-      EXPECT_EQ(v(i, 1), static_cast<double>(global(c)));
-  double received = o(s.mesh.num_cells);
-  exchange.sum(&received, 1);
-  EXPECT_GE(received, s.comm->getSize() > 1 ? 1.0 : nx * ny);
+  auto const low = [](long long cell) { return cell < nx * ny / 2 ? 1 : 0; };
+  HaloCells const halo = exchange.haloCells(s.mesh.halo);
+  PackedRows const from = makeRows(s.mesh, halo.sent, 2, low);
+  PackedRows const to = makeRows(s.mesh, halo.received, 2, low);
+  forAll(s.mesh, halo.sent, from, [](double &value, long long cell, int, int) { value = static_cast<double>(cell); });
+  exchange.exchangePacked(from, to, s.mesh.halo);
+  forAll(s.mesh, halo.received, to,
+         [](double &value, long long cell, int, int) { EXPECT_EQ(value, static_cast<double>(cell)); });
 }
 
 TEST(TpetraExchange, reductions_areThoseOfAllRanksInRankOrder)
@@ -188,34 +189,16 @@ TEST(TpetraExchange, reductions_areThoseOfAllRanksInRankOrder)
   EXPECT_EQ(counts[1], ranks * (ranks + 1) / 2);
 }
 
-TEST(TpetraExchange, oneRank_keepsTheViews)
-{
-  Setting const s(false);
-  if (s.comm->getSize() != 1)
-    GTEST_SKIP() << "for one rank: only there nothing is exchanged and the views stay the same";
-  TpetraExchange const exchange(s.comm, s.mesh);
-  View<int *> offset;
-  View<double **> item;
-  makeRows(s.mesh, 2, offset, item);
-  View<int *> const before_offset = offset;
-  View<double **> const before = item;
-  exchange.exchangeRows(offset, item, 0);
-  exchange.updateRows(offset, item, 0);
-  EXPECT_EQ(offset.data(), before_offset.data());
-  EXPECT_EQ(item.data(), before.data());
-}
-
-TEST(TpetraExchange, depthBeyondTheHalo_isRefused)
+TEST(TpetraExchange, depthBeyondTheHaloOrWrongNumberOfEntries_isRefused)
 {
   Setting const s(false);
   if (s.comm->getSize() == 1)
     GTEST_SKIP() << "for two ranks or more: one rank exchanges nothing and refuses no depth";
   TpetraExchange const exchange(s.comm, s.mesh);
-  View<int *> offset("offset", s.mesh.num_cells + 1);
-  View<double **> item("item", 0, 1);
-  EXPECT_THROW(exchange.exchangeRows(offset, item, halo + 1), std::runtime_error);
-  View<int *> wrong("offset", s.mesh.num_cells);
-  EXPECT_THROW(exchange.exchangeRows(wrong, item, 1), std::runtime_error);
+  EXPECT_THROW(exchange.haloCells(halo + 1), std::runtime_error);
+  HaloCells const cells = exchange.haloCells(1);
+  View<int *> const few("few", cells.sent.extent(0) + 1), right("right", cells.received.extent(0));
+  EXPECT_THROW(exchange.exchangeCounts(few, right, 1), std::runtime_error);
 }
 
 } // namespace

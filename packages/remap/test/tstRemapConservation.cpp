@@ -141,6 +141,7 @@ TEST(Conservation, massesThatDoNotMove_keepTheirBits)
   for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
     for (int d = 0; d < 2; ++d)
       EXPECT_EQ(result.state.velocity(dof, d), scene.half(dof, d));
-  EXPECT_EQ(scene.report.kinetic_loss, 0.0);
+  double const kinetic = totals(scene.mesh, scene.pairs, scene.state.record, scene.half, 0).kinetic;
+  EXPECT_NEAR(scene.report.kinetic_loss, 0.0, 1e-15 * kinetic); // two sums of the same numbers
   EXPECT_EQ(scene.report.overlap_volume + scene.report.void_volume + scene.report.closed_volume, 0.0);
 }
