@@ -38,7 +38,8 @@ struct Ledger
   double light_nodes = 0.0;
   double repeats = 0.0;
   double merged = 0.0;
-  double restored_volume = 0.0; // prescribed field: sum of |volume given back| [m^2]
+  double unfinished_interfaces = 0.0; // mixed cells, summed over cycles, whose line's angle met its bound of iterations
+  double restored_volume = 0.0;       // prescribed field: sum of |volume given back| [m^2]
 
   /// Keep the largest errors. \param energy_error [J/m] \param energy Kinetic + internal now.
   void noteErrors(double mass_error, double momentum_error, double energy_error, double energy, double speed_momentum);

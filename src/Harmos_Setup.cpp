@@ -160,11 +160,11 @@ void addRigidBodies(Deck const &deck, Scene &scene)
 }
 
 /// With a prescribed field: the largest step with which end_time is a multiple of it and no node moves farther than
-/// `courant` of the shortest cell side.
+/// `courant` of the shortest cell side (with jitter: of the least width that its cells may have).
 double equalStep(Deck const &deck, double max_dt)
 {
   double const speed = deck.prescribed.largestSpeed({deck.x.from, deck.y.from}, {deck.x.to, deck.y.to});
-  double const shortest = std::min(deck.x.smallestCell(), deck.y.smallestCell());
+  double const shortest = (1.0 - 2.0 * deck.jitter) * std::min(deck.x.smallestCell(), deck.y.smallestCell());
   double const largest = std::min(max_dt, speed > 0.0 ? deck.lagrange.courant * shortest / speed : deck.run.end_time);
   return deck.run.end_time / std::ceil(deck.run.end_time / largest * (1.0 - 1e-12));
 }
@@ -234,7 +234,7 @@ DeckMesh makeMesh(Deck const &deck)
 {
   if (deck.kinematics == Kinematics::Lagrangian)
     return makeBlockMesh(deck);
-  return {rectilinearMesh(gridLines(deck.x), gridLines(deck.y)), {}};
+  return {jitteredMesh(gridLines(deck.x), gridLines(deck.y), deck.jitter, static_cast<unsigned>(deck.jitter_seed)), {}};
 }
 
 Shape makeShape(ShapeSpec const &spec)

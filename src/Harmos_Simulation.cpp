@@ -30,10 +30,16 @@ void warn(Run &run, std::string const &text)
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
-  double sums[8] = {
-      remap.kinetic_loss,        remap.overlap_volume,      remap.void_volume,    remap.outflow_mass,
-      remap.outflow_momentum[0], remap.outflow_momentum[1], remap.outflow_energy, static_cast<double>(remap.merged)};
-  exchange.sum(sums, 8);
+  double sums[9] = {remap.kinetic_loss,
+                    remap.overlap_volume,
+                    remap.void_volume,
+                    remap.outflow_mass,
+                    remap.outflow_momentum[0],
+                    remap.outflow_momentum[1],
+                    remap.outflow_energy,
+                    static_cast<double>(remap.merged),
+                    static_cast<double>(report.reconstruction.unfinished_cells)};
+  exchange.sum(sums, 9);
   l.external_work += report.external_work;
   l.contact_loss += report.constraint.contact_loss;
   l.external_impulse_x += report.external_impulse[0];
@@ -46,6 +52,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.outflow_momentum_y += sums[5];
   l.outflow_energy += sums[6];
   l.merged += sums[7];
+  l.unfinished_interfaces += sums[8];
   l.unconverged_cycles += report.constraint.converged ? 0.0 : 1.0;
   l.light_nodes += static_cast<double>(report.light_nodes);
   l.repeats += report.repeats;
@@ -135,6 +142,8 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.momentum_error = run.ledger.largest_momentum_error;
   s.energy_error = run.ledger.largest_energy_error;
   s.unconverged_cycles = std::llround(run.ledger.unconverged_cycles);
+  s.merged_fragments = std::llround(run.ledger.merged);
+  s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);
   if (run.scene.prescribed.kind != FieldKind::None)
   {
     s.shape_errors = shapeErrors(run.deck, run.scene, run.state);

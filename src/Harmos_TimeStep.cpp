@@ -9,6 +9,7 @@
 #include <Harmos_StateExchange.hpp>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace Harmos
 {
@@ -184,6 +185,53 @@ void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials,
   updateGeometry(mesh);
 }
 
+/// Move the mesh to where the host code wants it. \return Where it was; extent 0: nobody wants it moved.
+View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
+{
+  if (!scene.target_mesh)
+    return {};
+  Mesh &mesh = scene.mesh;
+  View<double *[2]> const start = mesh.node_position;
+  View<double *[2]> const target("Harmos::target", mesh.num_nodes);
+  Kokkos::deep_copy(target, start);
+  scene.target_mesh(mesh, s, dt, target);
+  mesh.node_position = target;
+  mesh.cell_area = View<double *>("Harmos::targetArea", mesh.num_cells);
+  updateGeometry(mesh);
+  if (scene.exchange->max(countInvertedCells(mesh)) > 0.0)
+    throw std::runtime_error("the target mesh has cells that are not strictly convex");
+  computeNodeAltitudes(mesh, s.work);
+  s.rigid_rows = {}; // they belong to the cells
+  return start;
+}
+
+/// On a mesh that has moved under the state: its stable step, and the cells of the tracers.
+void settleOnTarget(Scene const &scene, CycleState &s, TimeStepLimit &next)
+{
+  prepareWork(s.pairs, s.dof_nodes, s.work);
+  computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
+  next = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
+  if (s.tracers.empty())
+    return;
+  std::vector<Vector2> points;
+  for (Tracer const &tracer : s.tracers)
+    points.push_back(tracer.position);
+  std::vector<long long> const cell = locatePoints(scene.mesh, points, *scene.exchange);
+  for (std::size_t i = 0; i < cell.size(); ++i)
+    s.tracers[i].cell = cell[i];
+}
+
+/// What has no meaning together. \throw std::runtime_error
+void checkTarget(Scene const &scene)
+{
+  if (!scene.target_mesh)
+    return;
+  if (scene.kinematics == Kinematics::Lagrangian)
+    throw std::runtime_error("a target mesh means nothing in lagrangian kinematics: the mesh is the material's");
+  if (scene.prescribed.kind != FieldKind::None)
+    throw std::runtime_error("a target mesh means nothing with a prescribed field, which keeps the cells' volumes");
+}
+
 } // namespace
 
 void setRigidVelocities(Scene const &scene, CycleState &s)
@@ -222,6 +270,7 @@ void reconstructState(Scene const &scene, CycleState &s, ReconstructionReport &r
 
 CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
 {
+  checkTarget(scene);
   if (scene.prescribed.kind != FieldKind::None)
     return advancePrescribed(scene, s, times);
   Exchange const &exchange = *scene.exchange;
@@ -302,9 +351,10 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     }
     {
       PhaseTimer timer("remap", times.remap);
+      View<double *[2]> const start = moveToTarget(scene, s, dt);
       RigidRows const &rigid = rigidRows(scene, s);
       RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
-                                 scene.materials, work.half, dt, rigid, scene.remap, report.remap, s.remap_work);
+                                 scene.materials, work.half, dt, rigid, scene.remap, report.remap, s.remap_work, start);
       s.pairs = result.pairs;
       s.dof_nodes = result.dof_nodes;
       s.state = result.state;
@@ -312,6 +362,8 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     PhaseTimer timer("exchange", times.exchange);
     exchangeState(mesh, scene.kinematics, exchange, mesh.halo, s.pairs, s.dof_nodes, s.state);
     holdRigidNodes(scene, s, prediction);
+    if (scene.target_mesh)
+      settleOnTarget(scene, s, next);
   }
   {
     PhaseTimer timer("reconstruct", times.reconstruct);

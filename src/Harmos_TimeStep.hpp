@@ -12,6 +12,7 @@
 #include <Harmos_Shape.hpp>
 #include <Harmos_SubzonalPressure.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace Harmos
@@ -20,11 +21,23 @@ namespace Harmos
 /// Layers of halo cells that the cycle needs (doc/decisions/0003).
 constexpr int halo_layers = 7;
 
+struct CycleState;
+
+/// Where the nodes of a mesh are to be at the end of a cycle.
+///
+/// \param mesh    Where they are. \param state  Before the remap: state.work.half are the dof nodes' v^{n+1/2}.
+/// \param dt      Of this cycle [s].
+/// \param target  All local nodes; holds their present positions. What a node gets may depend on nothing but what
+///                every rank that holds it knows, to the bit.
+using TargetMesh =
+    std::function<void(Mesh const &mesh, CycleState const &state, double dt, View<double *[2]> const &target)>;
+
 /// What does not change from cycle to cycle. A host code fills it with its own mesh and exchange.
 struct Scene
 {
   Kinematics kinematics = Kinematics::Xfem;
-  Mesh mesh; // node positions change in lagrangian kinematics
+  Mesh mesh;              // node positions change in lagrangian kinematics and with a target mesh
+  TargetMesh target_mesh; // empty: the remap goes back to where the cycle began
   BoundaryConditions boundary;
   View<Material *> materials;
   std::vector<Shape> rigid_shape; // by rigid body, in its pose at the start
@@ -46,15 +59,15 @@ struct CycleState
   NodeMaterialPairs dof_nodes;
   PairState state;
   FilledRegions regions; // of this state
-  LagrangeWork work;            // scratch, kept from cycle to cycle
-  RemapWork remap_work;         // the same
+  LagrangeWork work;     // scratch, kept from cycle to cycle
+  RemapWork remap_work;  // the same
   std::vector<RigidBody> bodies;
   RigidRows rigid_rows;              // what the bodies fill at
   std::vector<RigidBody> rigid_pose; // these poses
-  std::vector<Tracer> tracers; // moved with v^{n+1/2}
-  double time = 0.0;   // [s], of the records; velocities are half a step behind
-  double dt = 0.0;     // of the next cycle [s]
-  TimeStepLimit limit; // what sets it
+  std::vector<Tracer> tracers;       // moved with v^{n+1/2}
+  double time = 0.0;                 // [s], of the records; velocities are half a step behind
+  double dt = 0.0;                   // of the next cycle [s]
+  TimeStepLimit limit;               // what sets it
   long long cycle = 0;
 };
 
@@ -80,8 +93,8 @@ struct CycleReport
   RemapReport remap;
   double external_work = 0.0; // gravity, walls, driven bodies
   Vector2 external_impulse = {0.0, 0.0};
-  double restored_volume = 0.0;       // prescribed field: sum over materials of |volume given back| [length^2]
-  double kinetic_energy = 0.0; // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
+  double restored_volume = 0.0; // prescribed field: sum over materials of |volume given back| [length^2]
+  double kinetic_energy = 0.0;  // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
 };
 
 /// Dof velocities of rigid materials from their bodies (single: of every node that a rigid pair touches).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_Interrupt.hpp"
+#include "Harmos_RemapStudy.hpp"
 #include "Harmos_Simulation.hpp"
 #include "Harmos_Version.hpp"
 
@@ -21,13 +22,15 @@ namespace
 
 char const usage[] =
     "usage: harmos run DECK.yaml [--output DIR] [--set 'path/to/key=value' ...] [--restart FILE] [--force]\n"
+    "       harmos remap DECK.yaml [--output DIR] [--set 'key=value' ...] [--force]\n"
     "       harmos check DECK.yaml [--set 'path/to/key=value' ...]\n"
-    "       harmos schema\n"
+    "       harmos schema [remap]\n"
     "       harmos --version | --help\n"
     "\n"
     "run      runs a deck; results go to DIR (default: results-DECK). SI units.\n"
     "check    reads and checks a deck and places its bodies; runs and writes nothing\n"
-    "schema   lists every key of a deck: type, default, unit, allowed values\n"
+    "remap    remaps a field over moving meshes, without mechanics; errors and times go to DIR\n"
+    "schema   lists every key of a deck: type, default, unit, allowed values; of a deck of `remap`\n"
     "--set    overrides a key of the deck; may be given many times\n"
     "--force  overwrites results that are in DIR\n"
     "--restart continues from a checkpoint, to the same history\n"
@@ -74,7 +77,7 @@ Arguments parseArguments(int argc, char **argv)
     else
       throw Harmos::DeckError("one deck at a time: '" + word + "' is too many");
   }
-  bool const takes_deck = arguments.command == "run" || arguments.command == "check";
+  bool const takes_deck = arguments.command == "run" || arguments.command == "check" || arguments.command == "remap";
   if (takes_deck && arguments.deck.empty())
     throw Harmos::DeckError("'harmos " + arguments.command + "' needs a deck");
   if (arguments.run.directory.empty())
@@ -100,10 +103,16 @@ int dispatch(Arguments const &arguments, Teuchos::RCP<Teuchos::Comm<int> const> 
   }
   if (arguments.command == "schema")
   {
-    if (speaks)
+    if (!arguments.deck.empty() && arguments.deck != "remap")
+      throw Harmos::DeckError("no schema '" + arguments.deck + "'; allowed: none, remap");
+    if (speaks && arguments.deck.empty())
       Harmos::printSchema(std::cout);
+    else if (speaks)
+      Harmos::printSchema(std::cout, Harmos::remapSchema());
     return Harmos::Completed;
   }
+  if (arguments.command == "remap")
+    return Harmos::studyRemap(Harmos::readRemapDeck(arguments.deck, arguments.overrides, *comm), arguments.run, comm);
   if (arguments.command != "run" && arguments.command != "check")
   {
     if (speaks)

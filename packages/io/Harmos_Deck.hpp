@@ -143,6 +143,8 @@ struct Deck
   Kinematics kinematics = Kinematics::Xfem;
   Geometry geometry = Geometry::Planar;
   AxisSpec x, y;
+  double jitter = 0.0; // of the inner nodes, part of the smaller cell beside a grid line
+  int jitter_seed = 1;
   Boundary boundary[num_boundary_sides]; // Inflow: `material` is a field
   std::vector<LawSpec> laws;
   std::vector<BodySpec> bodies;  // in the order of the deck

@@ -182,6 +182,18 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
 
   ParameterList const &remap = list.sublist("remap");
   deck.remap.order = remap.get<int>("order");
+  std::string const limiter = remap.get<std::string>("limiter");
+  deck.remap.limiter = limiter == "range"          ? RemapLimiter::Range
+                       : limiter == "range inside" ? RemapLimiter::RangeInside
+                       : limiter == "van leer"     ? RemapLimiter::VanLeer
+                                                   : RemapLimiter::None;
+  deck.remap.swept_faces = remap.get<bool>("swept_faces");
+  bool const by_contour = remap.get<std::string>("hessian") == "contour";
+  deck.remap.hessian = by_contour ? RemapHessian::Contour : RemapHessian::LeastSquares;
+  check.require(!by_contour || deck.remap.order == 3, "numerics/remap/hessian",
+                "\"contour\" is for the third order; expected: numerics/remap/order 3");
+  check.require(deck.remap.order < 3 || !deck.remap.swept_faces, "numerics/remap/order",
+                "3 is by intersection alone; expected: numerics/remap/swept_faces false");
   deck.remap.merge_below = remap.get<double>("merge_below");
   deck.remap.close_void_below = remap.get<double>("close_void_below");
   deck.remap.return_kinetic_defect = remap.get<bool>("return_kinetic_defect");
@@ -317,6 +329,10 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   deck.lagrange.gravity = vectorOf(complete, "gravity");
   deck.x = axisOf(check, complete.sublist("mesh").sublist("x"), "mesh/x");
   deck.y = axisOf(check, complete.sublist("mesh").sublist("y"), "mesh/y");
+  deck.jitter = complete.sublist("mesh").get<double>("jitter");
+  deck.jitter_seed = complete.sublist("mesh").get<int>("jitter_seed");
+  check.require(deck.jitter == 0.0 || deck.kinematics != Kinematics::Lagrangian, "mesh/jitter",
+                "the blocks of kinematics lagrangian have none; expected: 0");
   // Faces are numbered 4 * cell + k in 32 bits.
   check.require(static_cast<long long>(deck.x.cells) * deck.y.cells <= std::numeric_limits<int>::max() / 4, "mesh",
                 "more cells than 32-bit face numbers reach");

@@ -135,7 +135,7 @@ Deck readDeckText(std::string const &text, std::string const &file, std::vector<
   return convertDeck(completeDeck(deckSchema(), parseDeck(text, file, overrides), file), file);
 }
 
-Deck readDeck(std::string const &file, std::vector<std::string> const &overrides, Teuchos::Comm<int> const &comm)
+std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm)
 {
   std::string text;
   int size = -1;
@@ -155,7 +155,12 @@ Deck readDeck(std::string const &file, std::vector<std::string> const &overrides
   text.resize(static_cast<std::size_t>(size));
   if (size > 0)
     Teuchos::broadcast(comm, 0, size, text.data());
-  return readDeckText(text, file, overrides);
+  return text;
+}
+
+Deck readDeck(std::string const &file, std::vector<std::string> const &overrides, Teuchos::Comm<int> const &comm)
+{
+  return readDeckText(deckText(file, comm), file, overrides);
 }
 
 } // namespace Harmos

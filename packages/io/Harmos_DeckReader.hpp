@@ -23,6 +23,9 @@ Deck readDeck(std::string const &file, std::vector<std::string> const &overrides
 /// The same from text; `file` is for messages.
 Deck readDeckText(std::string const &text, std::string const &file, std::vector<std::string> const &overrides = {});
 
+/// The text of a deck's file on all ranks. Collective. \throws DeckError where it cannot be read.
+std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm);
+
 /// The parts of readDeckText, for tools and tests.
 /// YAML text with overrides as a list, below the outermost key `harmos`; not checked. \throws DeckError
 Teuchos::ParameterList parseDeck(std::string const &text, std::string const &file,

@@ -112,6 +112,9 @@ void addMesh(ParameterList &mesh)
     add(list, "cells", 0, required(integer({1.0, infinity, false, false})), "number of cells");
     add(list, "grading", 1.0, number(positive), "size of the last cell over the first; sizes grow geometrically");
   }
+  add(mesh, "jitter", 0.0, number({0.0, 0.25, false, true}),
+      "inner nodes move at random by up to this part of the smaller cell beside them, in x and in y");
+  add(mesh, "jitter_seed", 1, integer(not_negative), "of the random numbers");
 }
 
 void addState(ParameterList &list, std::string const &whose)
@@ -295,7 +298,14 @@ void addNumerics(ParameterList &list)
 
   RemapOptions const remap;
   ParameterList &m = list.sublist("remap");
-  add(m, "order", remap.order, integer(between(1.0, 2.0)), "1: constant in a cell; 2: limited linear");
+  add(m, "order", remap.order, integer(between(1.0, 3.0)),
+      "1: constant in a cell; 2: limited linear; 3: limited quadratic (without swept_faces)");
+  add(m, "hessian", std::string("least squares"), choice({"least squares", "contour"}),
+      "order 3: a fit that is exact for quadratics, or contour integrals (Dukowicz and Kodis)");
+  add(m, "limiter", std::string("range"), choice({"range", "range inside", "van leer", "none"}),
+      "of gradients. range: no new extrema; range inside: but at the mesh's boundary; van leer: towards neighbours");
+  add(m, "swept_faces", remap.swept_faces, rulesOf(KeyType::Bool),
+      "pure regions by swept faces; false: intersection everywhere");
   add(m, "merge_below", remap.merge_below, number(between(0.0, 0.1)),
       "fragments below this volume fraction merge with neighbours of their material; 0: never");
   add(m, "close_void_below", remap.close_void_below, number(between(0.0, 0.01)),
@@ -353,8 +363,13 @@ ParameterList deckSchema()
 
 void printSchema(std::ostream &out)
 {
+  printSchema(out, deckSchema());
+}
+
+void printSchema(std::ostream &out, ParameterList const &schema)
+{
   out << "Keys of a deck, below its outermost key `harmos`. SI units. NAME: any number of named maps.\n";
-  for (SchemaKey const &key : schemaKeys(deckSchema()))
+  for (SchemaKey const &key : schemaKeys(schema))
   {
     out << "\n" << key.path;
     if (!key.condition.empty())

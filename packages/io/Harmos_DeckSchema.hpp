@@ -48,8 +48,9 @@ struct SchemaKey
 
 std::vector<SchemaKey> schemaKeys(Teuchos::ParameterList const &schema);
 
-/// The text of `harmos schema`.
+/// The text of `harmos schema`, or of another schema.
 void printSchema(std::ostream &out);
+void printSchema(std::ostream &out, Teuchos::ParameterList const &schema);
 
 /// A complete deck as YAML and as JSON. Doubles keep their bits and stay doubles, words stay words. Empty arrays,
 /// which Teuchos' parser refuses, are left out of the YAML (they are defaults).

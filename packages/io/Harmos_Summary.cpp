@@ -96,6 +96,8 @@ std::string summaryText(Summary const &s)
   object.add("momentum_error", s.momentum_error);
   object.add("energy_error", s.energy_error);
   object.add("unconverged_cycles", s.unconverged_cycles);
+  object.add("merged_fragments", s.merged_fragments);
+  object.add("unfinished_interfaces", s.unfinished_interfaces);
   if (!s.shape_errors.empty())
     object.raw("shape_errors", nested(s.shape_errors));
   object.raw("warnings", '[' + warnings + ']');

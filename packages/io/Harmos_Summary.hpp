@@ -28,6 +28,8 @@ struct Summary
   double momentum_error = 0.0; // |P - P0 - external impulse + outflow| / sum m |v|
   double energy_error = 0.0;   // of the total
   long long unconverged_cycles = 0;
+  long long merged_fragments = 0;
+  long long unfinished_interfaces = 0; // mixed cells, over all cycles, whose line's angle met its bound of iterations
   std::vector<std::pair<std::string, double>> shape_errors; // prescribed field: errors against the exact shapes [m^2]
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::string>> versions; // program and libraries

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 #include <string>
 
@@ -82,8 +83,9 @@ void requireAscending(std::vector<double> const &x, std::string const &name)
   for (std::size_t i = 0; i < x.size(); ++i)
   {
     require(std::isfinite(x[i]), "rectilinear mesh: " + name + "[" + std::to_string(i) + "] is not finite");
-    require(i == 0 || x[i] > x[i - 1], "rectilinear mesh: " + name + "[" + std::to_string(i) +
-                                           "] = " + std::to_string(x[i]) + " is not above " + std::to_string(x[i - 1]));
+    if (i > 0 && !(x[i] > x[i - 1]))
+      fail("rectilinear mesh: " + name + "[" + std::to_string(i) + "] = " + std::to_string(x[i]) + " is not above " +
+           std::to_string(x[i - 1]));
   }
 }
 
@@ -199,6 +201,27 @@ HostMesh rectilinearMesh(std::vector<double> const &x, std::vector<double> const
     for (double const xi : x)
       mesh.node.push_back({xi, yj});
   appendGrid(mesh, static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1, 0, 0);
+  return mesh;
+}
+
+HostMesh jitteredMesh(std::vector<double> const &x, std::vector<double> const &y, double jitter, unsigned seed)
+{
+  require(jitter >= 0.0 && jitter < 0.25, "jittered mesh: jitter = " + std::to_string(jitter) + " is not in [0, 0.25)");
+  HostMesh mesh = rectilinearMesh(x, y);
+  std::mt19937 random(seed);
+  auto const shift = [&random, jitter](std::vector<double> const &at, std::size_t i)
+  {
+    // 2^32 equally likely values: the standard's distributions differ from library to library, its generators do not.
+    double const uniform = std::ldexp(static_cast<double>(random()), -31) - 1.0;
+    return jitter * uniform * std::min(at[i] - at[i - 1], at[i + 1] - at[i]);
+  };
+  for (std::size_t j = 1; j + 1 < y.size(); ++j)
+    for (std::size_t i = 1; i + 1 < x.size(); ++i)
+    {
+      Corner &node = mesh.node[j * x.size() + i];
+      node[0] += shift(x, i);
+      node[1] += shift(y, j);
+    }
   return mesh;
 }
 

@@ -42,6 +42,12 @@ void checkHostMesh(HostMesh const &mesh);
 /// Boundary numbers: 0 left (least x), 1 right, 2 bottom (least y), 3 top. \throw std::runtime_error
 HostMesh rectilinearMesh(std::vector<double> const &x, std::vector<double> const &y);
 
+/// The same with inner nodes moved at random: each coordinate by up to `jitter` of the smaller cell beside the line,
+/// equally likely. Cells stay convex, and no node moves out of the cells around where it was.
+///
+/// \param jitter  In [0, 0.25). \param seed Of std::mt19937: the same mesh on every machine. \throw std::runtime_error
+HostMesh jitteredMesh(std::vector<double> const &x, std::vector<double> const &y, double jitter, unsigned seed);
+
 /// cells + 1 coordinates in geometric progression: h_{i+1} = h_i ratio^(1 / (cells - 1)).
 ///
 /// \param ratio  Last over first cell size, > 0; 1 is uniform. Both ends are exact. \throw std::runtime_error

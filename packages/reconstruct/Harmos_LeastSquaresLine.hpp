@@ -12,6 +12,7 @@ struct LeastSquaresLine
 {
   Vector2 normal; // unit, leaves the inside
   double misfit;  // mean over the neighbours of (fraction behind the line - fraction)^2
+  bool converged; // false: the search for the angle met its bound (the volume is exact all the same)
 };
 
 namespace Detail
@@ -159,39 +160,76 @@ KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vect
   return {sum.value * inverse_count, sum.gradient * inverse_count, sum.hessian * inverse_count};
 }
 
-/// Gauss-Newton in the angle with step halving; every accepted step lowers the misfit. From the second step on the
-/// secant of the gradient replaces the curvature, which lacks the part of the residuals: where no straight line fits,
-/// Gauss-Newton alone creeps.
+/// Angles between which the misfit has a minimum, as its slope's signs tell.
+struct AngleBracket
+{
+  double low = 0.0, high = 0.0; // the misfit falls at low and rises at high
+  bool has_low = false, has_high = false;
+
+  KOKKOS_INLINE_FUNCTION bool closed() const { return has_low && has_high; }
+  KOKKOS_INLINE_FUNCTION bool holds(double angle) const { return (angle - low) * (angle - high) < 0.0; }
+
+  KOKKOS_INLINE_FUNCTION void add(double angle, double gradient)
+  {
+    (gradient > 0.0 ? high : low) = angle;
+    (gradient > 0.0 ? has_high : has_low) = true;
+  }
+};
+
+/// A local minimum of the misfit over the angle: Gauss-Newton, from the second step on with the secant of the gradient
+/// in place of the curvature, which lacks the part of the residuals.
+///
+/// Until two slopes of different sign enclose a minimum, every step lowers the misfit and steps grow where the slope
+/// hardly falls (where no straight line fits, Gauss-Newton alone creeps); from then on they stay inside, by bisection
+/// where the secant is slow.
 KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, Vector2 const &start)
 {
-  constexpr int max_iterations = 20, max_halvings = 6;
+  constexpr int max_iterations = 60;
   constexpr double least_curvature = 0.1; // of the secant, of Gauss-Newton's: below it the latter is taken
+  constexpr double longest_step = 0.5;
+  Vector2 const along = perpendicular(start);
   Vector2 normal = start;
   LineMisfit now = lineMisfit(problem, normal);
-  double curvature = now.hessian;
-  for (int i = 0; i < max_iterations && now.hessian > 0.0 && now.value > 1e-31; ++i)
+  AngleBracket bracket;
+  double angle = 0.0, curvature = now.hessian, stretch = 1.0;
+  bool slow = false;
+  for (int i = 0; i < max_iterations; ++i)
   {
-    double step = Math::clamp(-now.gradient / curvature, -0.5, 0.5);
+    if (!(now.hessian > 0.0) || now.value <= 1e-31)
+      return {normal, now.value, true};
+    bracket.add(angle, now.gradient);
+    double step = Math::clamp(-stretch * now.gradient / curvature, -longest_step, longest_step);
     if (Math::fabs(now.gradient * step) < 1e-13 * now.value)
-      break;
-    bool lower = false;
-    for (int halving = 0; halving <= max_halvings && !lower; ++halving, step *= lower ? 1.0 : 0.5)
+      return {normal, now.value, true};
+    bool const enclosed = bracket.closed();
+    if (enclosed && (slow || !bracket.holds(angle + step)))
+      step = 0.5 * (bracket.low + bracket.high) - angle;
+    Vector2 const trial = normalised(Math::cos(angle + step) * start + Math::sin(angle + step) * along);
+    LineMisfit const next = lineMisfit(problem, trial);
+    if (Math::fabs(step) < 1e-10)
+      return next.value < now.value ? LeastSquaresLine{trial, next.value, true}
+                                    : LeastSquaresLine{normal, now.value, true};
+    double const secant = (next.gradient - now.gradient) / step;
+    slow = Math::fabs(next.gradient) > 0.5 * Math::fabs(now.gradient);
+    bool const turned = (next.gradient > 0.0) != (now.gradient > 0.0);
+    if (!enclosed && !(next.value < now.value))
     {
-      Vector2 const trial = normalised(Math::cos(step) * normal + Math::sin(step) * perpendicular(normal));
-      LineMisfit const next = lineMisfit(problem, trial);
-      lower = next.value < now.value;
-      if (lower)
-      {
-        double const secant = (next.gradient - now.gradient) / step;
-        curvature = secant > least_curvature * next.hessian ? secant : next.hessian;
-        now = next;
-        normal = trial;
-      }
+      // Beyond the minimum, or beyond a ridge: back, by the secant or by half.
+      if (turned)
+        bracket.add(angle + step, next.gradient);
+      curvature = turned && secant > 0.0 ? secant : -2.0 * now.gradient / step;
+      stretch = 1.0;
+      slow = false;
+      continue;
     }
-    if (!lower || Math::fabs(step) < 1e-10)
-      break;
+    curvature = secant > least_curvature * next.hessian ? secant : next.hessian;
+    stretch = slow && !turned && !enclosed ? 2.0 * stretch : 1.0;
+    slow = slow && enclosed;
+    angle += step;
+    normal = trial;
+    now = next;
   }
-  return {normal, now.value};
+  return {normal, now.value, false};
 }
 
 /// Whether some neighbour holds anything but the two sets.
@@ -213,11 +251,12 @@ KOKKOS_INLINE_FUNCTION bool othersNear(ReconstructionField const &field, CellCom
 /// Minimises over the angle the mean of (fraction behind the line - f_j)^2 by Gauss-Newton from the weighted
 /// least-squares gradient; straight interfaces are exact. Where a third component is near, the inside's fractions and
 /// the outside's tell different stories (a thin void between two bodies has no gradient of its own, but the body
-/// behind it has): both are fitted and the lower misfit wins.
+/// behind it has): both are fitted and the lower misfit wins; where both fits are poor, they start once more from the
+/// fallback.
 ///
 /// \param polygon  Of the own cell, what is left to divide (unit coordinates).
 /// \param inside, outside Disjoint sets of components that fill the polygon.
-/// \param fallback Unit normal taken where neither fraction has a gradient.
+/// \param fallback Unit normal; the answer where neither fraction has a gradient.
 ///
 /// Pilliod & Puckett, J. Comput. Phys. 199 (2004) 465-502 (LVIRA); the analytic derivative is ours.
 KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField const &field,
@@ -225,22 +264,27 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
                                                          ComponentSet inside, ComponentSet outside,
                                                          Vector2 const &fallback)
 {
-  LeastSquaresLine best{fallback, 1.0};
+  constexpr double poor_misfit = 1e-2; // a tenth of a cell
+  LeastSquaresLine best{fallback, 1.0, true};
+  bool converged = true;
   double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
   int const sides = Detail::othersNear(field, components, inside | outside) ? 2 : 1;
-  for (int side = 0; side < sides; ++side)
-  {
-    ComponentSet const set = side == 0 ? inside : outside;
-    Vector2 const gradient = leastSquaresGradient(field, components, {set, 0u});
-    if (norm(gradient) < 1e-13)
-      continue;
-    Vector2 const start = (side == 0 ? -1.0 : 1.0) * normalised(gradient);
-    Detail::LineFitProblem problem{field, components, polygon, inside_volume, outside_volume, set, side == 0, 0, {}};
-    problem.store();
-    LeastSquaresLine const line = Detail::fitAngle(problem, start);
-    if (line.misfit < best.misfit)
-      best = line;
-  }
+  for (int start = 0; start < sides && best.misfit > poor_misfit; ++start)
+    for (int side = 0; side < sides; ++side)
+    {
+      ComponentSet const set = side == 0 ? inside : outside;
+      Vector2 const gradient = leastSquaresGradient(field, components, {set, 0u});
+      if (norm(gradient) < 1e-13)
+        continue;
+      Vector2 const along_gradient = (side == 0 ? -1.0 : 1.0) * normalised(gradient);
+      Detail::LineFitProblem problem{field, components, polygon, inside_volume, outside_volume, set, side == 0, 0, {}};
+      problem.store();
+      LeastSquaresLine const line = Detail::fitAngle(problem, start == 0 ? along_gradient : fallback);
+      converged = converged && line.converged;
+      if (line.misfit < best.misfit)
+        best = line;
+    }
+  best.converged = converged;
   return best;
 }
 

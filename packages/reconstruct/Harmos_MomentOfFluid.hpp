@@ -13,6 +13,7 @@ struct MomentOfFluidLine
   Vector2 centroid;     // of the part that is cut off [length]
   double squared_error; // |centroid - reference|^2 [length^2]
   int iterations;       // cuts evaluated
+  bool converged;       // false: the search for the angle met its bound (the volume is exact all the same)
 };
 
 namespace Detail
@@ -65,7 +66,7 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
   Vector2 const start_along = perpendicular(start);
   double theta = 0.0, low = 0.0, high = 0.0, last_slope = 1e300;
   bool has_low = false, has_high = false;
-  MomentOfFluidLine line{start, reference, 0.0, 0};
+  MomentOfFluidLine line{start, reference, 0.0, 0, true};
   for (int i = 0; i < max_iterations; ++i)
   {
     line.normal = Math::cos(theta) * start + Math::sin(theta) * start_along;
@@ -76,7 +77,7 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
     line.iterations = i + 1;
     double const g = dot(miss, perpendicular(line.normal));
     if (Math::fabs(g) <= tolerance)
-      break;
+      return line;
     (g > 0.0 ? low : high) = theta;
     (g > 0.0 ? has_low : has_high) = true;
     double const curvature = cut.rate + dot(miss, line.normal); // -g'
@@ -90,15 +91,16 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
       Vector2 const along = perpendicular(line.normal);
       line.centroid -= (cut.rate * step) * along;
       line.normal = Math::cos(next) * start + Math::sin(next) * start_along;
-      break;
+      return line;
     }
     if (bisect)
       next = 0.5 * (low + high);
     last_slope = Math::fabs(g);
     if (Math::fabs(next - theta) <= 1e-16)
-      break;
+      return line;
     theta = next;
   }
+  line.converged = false;
   return line;
 }
 
@@ -139,9 +141,11 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine momentOfFluidLine(Region const &polygon
   {
     MomentOfFluidLine const second = Detail::localMinimum(polygon, plain, volume, reference);
     int const iterations = line.iterations + second.iterations;
+    bool const converged = line.converged && second.converged;
     if (second.squared_error < line.squared_error - 1e-20)
       line = second;
     line.iterations = iterations;
+    line.converged = converged;
   }
   return line;
 }

@@ -10,12 +10,12 @@ namespace
 {
 
 constexpr int max_exhaustive_components = 5;
-constexpr double volume_tolerance = 1e-12; // of the cell
+constexpr double volume_tolerance = 1e-13; // of the cell
 
 struct CellStatus
 {
   double volume_error; // of the cell
-  bool failed, greedy;
+  bool failed, greedy, unfinished;
   int material; // with the largest error; -1: none
 };
 
@@ -54,7 +54,7 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
 KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, RemovalPlan const &plan,
                                         FilledRegions const &regions)
 {
-  CellStatus status{0.0, false, false, -1};
+  CellStatus status{0.0, false, false, plan.unfinished > 0, -1};
   int const first = regions.cell_region(components.cell);
   Region polygon = components.polygon;
   ComponentSet rest = components.all();
@@ -89,7 +89,7 @@ KOKKOS_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, Rec
                                            FilledRegions const &regions, int cell)
 {
   if (componentCount(field, cell) > max_components)
-    return {1.0, true, false, -1};
+    return {1.0, true, false, false, -1};
   bool const by_moments = options.method == ReconstructionMethod::MomentOfFluid;
   CellComponents const components = cellComponents(field, cell, by_moments);
   CellStatus status = writeRegions(components, removalPlan(field, components, options), regions);
@@ -142,7 +142,7 @@ void addReport(Mesh const &mesh, View<int *> const &mixed_cell, View<CellStatus 
 {
   int const num_mixed = static_cast<int>(mixed_cell.extent(0));
   View<int *> const depth = mesh.cell_depth;
-  long long failures = 0, greedy = 0;
+  long long failures = 0, greedy = 0, unfinished = 0;
   Kokkos::parallel_reduce(
       "Harmos::reconstruct::countFailures", RangePolicy(0, num_mixed),
       KOKKOS_LAMBDA(int const i, long long &sum) { sum += depth(mixed_cell(i)) == 0 && status(i).failed ? 1 : 0; },
@@ -151,6 +151,10 @@ void addReport(Mesh const &mesh, View<int *> const &mixed_cell, View<CellStatus 
       "Harmos::reconstruct::countGreedyCells", RangePolicy(0, num_mixed),
       KOKKOS_LAMBDA(int const i, long long &sum) { sum += depth(mixed_cell(i)) == 0 && status(i).greedy ? 1 : 0; },
       greedy);
+  Kokkos::parallel_reduce(
+      "Harmos::reconstruct::countUnfinishedCells", RangePolicy(0, num_mixed),
+      KOKKOS_LAMBDA(int const i, long long &sum) { sum += depth(mixed_cell(i)) == 0 && status(i).unfinished ? 1 : 0; },
+      unfinished);
   double largest = 0.0;
   Kokkos::parallel_reduce(
       "Harmos::reconstruct::largestVolumeError", RangePolicy(0, num_mixed),
@@ -175,6 +179,7 @@ void addReport(Mesh const &mesh, View<int *> const &mixed_cell, View<CellStatus 
     report.first_failed_material = failed.material;
   }
   report.failures += failures;
+  report.unfinished_cells += unfinished;
   report.greedy_cells += greedy;
   if (num_mixed > 0)
     report.largest_volume_error = Math::max(report.largest_volume_error, largest);

@@ -26,11 +26,12 @@ struct ReconstructionOptions
 
 struct ReconstructionReport
 {
-  long long failures = 0;      // owned cells whose root search did not reach the volume tolerance (1e-12 of the cell)
-  int first_failed_cell = -1;  // local number
-  int first_failed_material = -1; // of the largest error there; -1: the void, or too many components
+  long long failures = 0;            // owned cells whose volumes are off by more than 1e-13 of the cell
+  int first_failed_cell = -1;        // local number
+  int first_failed_material = -1;    // of the largest error there; -1: the void, or too many components
   double largest_volume_error = 0.0; // of the cell, owned cells
-  long long greedy_cells = 0;  // owned cells with more than five components, ordered greedily
+  long long unfinished_cells = 0;    // owned cells where a search for an angle met its bound; their volumes are exact
+  long long greedy_cells = 0;        // owned cells with more than five components, ordered greedily
 };
 
 /// Filled regions of all local mixed cells from volume fractions and centroids (method of doc/theory).

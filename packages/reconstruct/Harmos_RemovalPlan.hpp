@@ -16,6 +16,7 @@ struct RemovalPlan
   int component[max_components];
   Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
   double error = 0.0;             // the measure that orders are compared by
+  int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
 
   KOKKOS_INLINE_FUNCTION void set(int i, int which, Vector2 const &its_normal)
   {
@@ -29,6 +30,7 @@ struct CutNormal
 {
   Vector2 normal; // unit, leaves the inside
   double penalty; // 0.1 V misfit where least squares placed a sliver of volume V
+  bool converged; // of the search for the angle
 };
 
 /// Youngs: along the gradient of (fraction of the inside - fraction of the outside). Moment-of-fluid: from the smaller
@@ -41,7 +43,7 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
   {
     Vector2 const gradient = youngsGradient(field, components, {inside, outside});
     Vector2 const normal = norm(gradient) > 1e-13 ? -normalised(gradient) : Vector2{1.0, 0.0};
-    return {normal, 0.0};
+    return {normal, 0.0, true};
   }
   double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
   bool const cut_inside = inside_volume <= outside_volume;
@@ -54,10 +56,10 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
     if (!(dot(fallback, fallback) > 0.5))
       fallback = {1.0, 0.0};
     LeastSquaresLine const line = leastSquaresLine(field, components, polygon, inside, outside, fallback);
-    return {line.normal, 0.1 * volume * line.misfit};
+    return {line.normal, 0.1 * volume * line.misfit, line.converged};
   }
-  Vector2 const normal = momentOfFluidLine(polygon, volume, centroid).normal;
-  return {cut_inside ? normal : -normal, 0.0};
+  MomentOfFluidLine const line = momentOfFluidLine(polygon, volume, centroid);
+  return {cut_inside ? line.normal : -line.normal, 0.0, line.converged};
 }
 
 /// |first moment of a region - its component's given one|^2; slivers count nothing, since their centroids are noise.
@@ -86,7 +88,9 @@ KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, C
   {
     int const k = order[i];
     rest &= ~(1u << k);
-    plan.set(i, k, cutNormal(field, components, method, sliver, polygon, 1u << k, rest).normal);
+    CutNormal const cut = cutNormal(field, components, method, sliver, polygon, 1u << k, rest);
+    plan.set(i, k, cut.normal);
+    plan.unfinished += cut.converged ? 0 : 1;
     if (i + 2 < components.count)
       polygon = divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest)).outside;
   }
@@ -132,6 +136,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     CutNormal const cut =
         cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon[depth], 1u << k, others);
     Division const division = divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others));
+    plan.unfinished += cut.converged ? 0 : 1;
     double total = error[depth] + cut.penalty + momentError(components, sliver, division.inside, k);
     int last = 0;
     while (!components.holds(others, last))
@@ -154,6 +159,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     candidate[depth] = -1;
     error[depth] = total;
   }
+  best.unfinished = plan.unfinished;
   return best;
 }
 
@@ -181,6 +187,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, 
       }
       CutNormal const cut =
           cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon, 1u << k, others);
+      plan.unfinished += cut.converged ? 0 : 1;
       double const volume = components.volume[k];
       Division const division = divide(polygon, cut.normal, volume, components.volumeOf(others));
       double const error = (momentError(components, sliver, division.inside, k) + cut.penalty) / (volume * volume);

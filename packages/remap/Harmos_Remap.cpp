@@ -14,9 +14,12 @@ namespace
 
 using namespace RemapDetail;
 
-/// Forget what belongs to another mesh.
-void keepMesh(Mesh const &mesh, Kept &kept)
+/// Forget what belongs to another mesh. A mesh that moves keeps its cells and loses its links.
+void keepMesh(Mesh const &mesh, bool moves, Kept &kept)
 {
+  if (moves || kept.moved_mesh)
+    kept.links = {};
+  kept.moved_mesh = moves;
   if (kept.face_neighbour.data() == mesh.face_neighbour.data())
     return;
   kept.face_neighbour = mesh.face_neighbour;
@@ -25,12 +28,47 @@ void keepMesh(Mesh const &mesh, Kept &kept)
   kept.links = {};
 }
 
+/// A boundary node slides along its straight walls, and stays at any other boundary. \throw std::runtime_error
+void checkBoundaryNodes(Input const &in)
+{
+  constexpr double tolerance = 1e-10; // of the face
+  int strayed = in.mesh.num_nodes;
+  Kokkos::parallel_reduce(
+      "Harmos::remap::checkBoundaryNodes", RangePolicy(0, in.mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &least) {
+        for (int i = 0; i < 8; ++i)
+        {
+          int const face = i / 2;
+          int const number = in.mesh.face_boundary(cell, face);
+          if (number < 0)
+            continue;
+          BoundaryKind const kind = in.conditions.boundary(number).kind;
+          bool const wall = kind == BoundaryKind::SlipWall || kind == BoundaryKind::Fixed;
+          int const node = in.mesh.cell_node(cell, (face + i % 2) % 4);
+          Vector2 const a = in.startNode(in.mesh.cell_node(cell, face));
+          Vector2 const edge = in.startNode(in.mesh.cell_node(cell, (face + 1) % 4)) - a;
+          Vector2 const shift = in.node(node) - in.startNode(node);
+          double const off = wall ? Math::fabs(cross(edge, shift)) : Math::sqrt(dot(edge, edge) * dot(shift, shift));
+          if (off > tolerance * dot(edge, edge) && node < least)
+            least = node;
+        }
+      },
+      Kokkos::Min<int>(strayed));
+  if (strayed >= in.mesh.num_nodes)
+    return;
+  long long global = 0;
+  Kokkos::deep_copy(global, Kokkos::subview(in.mesh.node_global, strayed));
+  throw std::runtime_error("remap: the target mesh moves node " + std::to_string(global) +
+                           " off its boundary; nodes may slide along slip and fixed walls and stay at others");
+}
+
 /// The classes of the cells: as in the last cycle where nothing that they depend on has changed.
 Classes const &keepClasses(Input const &in, Kept &kept)
 {
   bool const same_scene = kept.conditions.boundary.data() == in.conditions.boundary.data() &&
                           kept.conditions.node_index.data() == in.conditions.node_index.data() &&
-                          kept.materials.data() == in.materials.data() && kept.classes.flags.extent(0) > 0;
+                          kept.materials.data() == in.materials.data() && kept.swept_faces == in.options.swept_faces &&
+                          kept.classes.flags.extent(0) > 0;
   bool const same_pairs = in.rigid.offset.extent(0) == 0 && kept.pairs.offset.data() == in.pairs.offset.data() &&
                           kept.pairs.material.data() == in.pairs.material.data() &&
                           kept.pairs.cell_kind.data() == in.pairs.cell_kind.data();
@@ -41,6 +79,7 @@ Classes const &keepClasses(Input const &in, Kept &kept)
   kept.pairs = in.pairs;
   kept.conditions = in.conditions;
   kept.materials = in.materials;
+  kept.swept_faces = in.options.swept_faces;
   return kept.classes;
 }
 
@@ -165,18 +204,36 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
                   NodeMaterialPairs const &dof_nodes, PairState const &state, FilledRegions const &regions,
                   BoundaryConditions const &conditions, View<Material *> const &materials,
                   View<double *[2]> const &half, double dt, RigidRows const &rigid, RemapOptions const &options,
-                  RemapReport &report, RemapWork &work)
+                  RemapReport &report, RemapWork &work, View<double *[2]> const &start)
 {
-  if (options.order != 1 && options.order != 2)
-    throw std::runtime_error("remap: order " + std::to_string(options.order) + " is neither 1 nor 2");
+  if (options.order < 1 || options.order > 3)
+    throw std::runtime_error("remap: order " + std::to_string(options.order) + " is none of 1, 2, 3");
+  if (options.order == 3 && options.swept_faces)
+    throw std::runtime_error("remap: order 3 is by intersection alone; switch swept_faces off");
   if (kinematics == Kinematics::Lagrangian)
     throw std::runtime_error("remap: lagrangian kinematics has no remap");
   ScopedRegion const region("Harmos::remap");
   if (!work.kept)
     work.kept = std::make_shared<Kept>();
   Kept &kept = *work.kept;
-  keepMesh(mesh, kept);
-  Input in{mesh, pairs, dof_nodes, state, regions, conditions, materials, half, dt, rigid, options, {}};
+  bool const retargeted = start.extent(0) > 0;
+  keepMesh(mesh, retargeted, kept);
+  Input in{mesh,
+           pairs,
+           dof_nodes,
+           state,
+           regions,
+           conditions,
+           materials,
+           half,
+           dt,
+           rigid,
+           options,
+           {},
+           retargeted ? start : mesh.node_position,
+           retargeted};
+  if (retargeted)
+    checkBoundaryNodes(in);
   Classes const &classes = keepClasses(in, kept);
   if (classes.num_interface > 0 && kept.links.link.extent(0) == 0)
     kept.links = linkNeighbours(mesh);

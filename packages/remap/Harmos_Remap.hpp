@@ -12,11 +12,30 @@
 namespace Harmos
 {
 
+/// What bounds the gradients (doc/theory/remap.md).
+enum class RemapLimiter : int
+{
+  Range = 0,       // no value that is remapped leaves the range of the donor and its neighbours
+  RangeInside = 1, // the same but in cells at the mesh's boundary, where gradients are not limited
+  VanLeer = 2,     // halfway to each neighbour beyond a face, between the two values; overshoots in two dimensions
+  None = 3
+};
+
+/// Gradients and Hessians of the third order.
+enum class RemapHessian : int
+{
+  LeastSquares = 0, // a fit that is exact for quadratics
+  Contour = 1       // contour integrals (Dukowicz & Kodis 1987): of less order on irregular meshes
+};
+
 struct RemapOptions
 {
-  int order = 2;                  // 1 or 2
+  int order = 2; // 1, 2, or 3 without swept faces
+  RemapLimiter limiter = RemapLimiter::Range;
+  RemapHessian hessian = RemapHessian::LeastSquares; // order 3
   double merge_below = 1e-6;      // fragments below this volume fraction merge with same-material neighbours; 0: never
   double close_void_below = 1e-8; // spurious void below this part of a cell, with no void around, is closed
+  bool swept_faces = true;        // pure regions by swept faces; false: intersection everywhere
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair
 };
 
@@ -69,7 +88,7 @@ struct RemapWork
 /// Remap the moved pairs back to the mesh in two stages (doc/decisions/0002): swept faces where all is pure and of one
 /// material, exact intersection elsewhere. Conserves mass, momentum and internal energy to round-off.
 ///
-/// \param mesh        The target mesh, which is also where the motion began. Runs over all local cells.
+/// \param mesh        The target mesh. Runs over all local cells.
 /// \param kinematics  Xfem or Single.
 /// \param pairs, dof_nodes  Of time n.
 /// \param state       Records after the Lagrangian update (volume fractions of time n), centroids of time n; velocity
@@ -79,6 +98,10 @@ struct RemapWork
 /// \param rigid       Rigid bodies at their new pose. Rigid materials are never donors; their pairs are built anew
 ///                    from these rows (mass density0 * volume) and their dof velocities are zero.
 /// \param report      Sums of owned cells, added to what it holds.
+/// \param start       Node positions where the motion began, when that is another mesh of the same connectivity
+///                    (regions and centroids belong to it, rigid rows to `mesh`); extent 0: it began on `mesh`. Moved
+///                    nodes (start + dt half) stay within the cells around their node of `mesh`; boundary nodes may
+///                    slide along straight slip or fixed walls, others stay. Throws where one does not.
 /// \return Pairs, dof nodes and state of time n+1, right on owned cells and on the nodes around them where the input is
 ///         right to depth 7 (5 without merging; doc/decisions/0003). Where no cell changes its set of materials, rows
 ///         and dof nodes are shared with the input.
@@ -96,7 +119,7 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
                   NodeMaterialPairs const &dof_nodes, PairState const &state, FilledRegions const &regions,
                   BoundaryConditions const &conditions, View<Material *> const &materials,
                   View<double *[2]> const &half, double dt, RigidRows const &rigid, RemapOptions const &options,
-                  RemapReport &report, RemapWork &work);
+                  RemapReport &report, RemapWork &work, View<double *[2]> const &start = {});
 
 } // namespace Harmos
 

@@ -40,6 +40,23 @@ def test_circle_at_rest_is_reconstructed_to_second_order():
         by_method("vortex/deck.yaml", {**cells(n), **still}, bounds)
 
 
+def test_straight_line_is_exact_on_random_quadrilaterals():
+    line = "{material: fluid, shape: half-plane, point: [0.47, 0.53], normal: [%s, %s]}"
+    still = {"prescribed_velocity": "{field: translation, velocity: [0.0, 0.0]}", "run/end_time": 1.0, "mesh/jitter": 0.24, **cells(32)}
+    for seed, (a, b) in enumerate([(1.0, 0.3), (-0.2, 1.0), (-1.0, -1.0), (0.7, -1.0)]):
+        by_method("vortex/deck.yaml", {**still, "mesh/jitter_seed": seed, "bodies": "{disc: %s}" % (line % (a, b))}, [1e-12, 1e-12, 1e-2])
+
+
+def test_circle_at_rest_on_random_quadrilaterals():
+    still = {"prescribed_velocity": "{field: translation, velocity: [0.0, 0.0]}", "bodies/disc/center": "[0.5, 0.5]", "bodies/disc/radius": 0.3, "run/end_time": 1.0, "mesh/jitter": 0.2}
+    for n, bounds in [(32, [7e-4, 1.2e-3, 3e-3]), (64, [2.2e-4, 3e-4, 2e-3]), (128, [5.2e-5, 7.5e-5, 1e-3])]:
+        by_method("vortex/deck.yaml", {**cells(n), **still}, bounds)
+
+
+def test_disc_comes_back_from_the_vortex_on_random_quadrilaterals():
+    by_method("vortex/deck.yaml", {**cells(64), "prescribed_velocity/period": 2.0, "run/end_time": 2.0, "mesh/jitter": 0.2}, [2.8e-3, 1.2e-2, 1.5e-2])
+
+
 def test_disc_comes_back_from_the_vortex():
     by_method("vortex/deck.yaml", {**cells(64), "prescribed_velocity/period": 2.0, "run/end_time": 2.0}, [2.4e-3, 1.0e-2, 1.3e-2])
 
@@ -48,6 +65,22 @@ def test_disc_comes_back_from_the_long_vortex():
     # [at 64: 1.05e-2 of 0.0707, ELVIRA]
     errors = carried("vortex/deck.yaml", {"numerics/reconstruction/method": "least squares"})
     check("least squares: symmetric difference", errors["disc.symmetric_difference"], 1.0e-2)
+
+
+def test_merging_fragments_loses_nothing_and_changes_little():
+    error = {}
+    for merge in (0.0, 1e-6):
+        settings = {"numerics/remap/merge_below": merge, "output/fields/every_time": 0.0, "output/fields/at_end": False}
+        r = harmos("vortex/deck.yaml", settings)
+        errors = r.summary["shape_errors"]
+        error[merge] = errors["disc.symmetric_difference"]
+        check(f"merging below {merge}: symmetric difference", error[merge], 1.0e-2)
+        check("volume", abs(errors["disc.volume_error"]) / errors["disc.area"], 1e-12)
+        check("mass", r.summary["mass_error"], 1e-12)
+        assert r.summary["unfinished_interfaces"] == 0
+        assert (r.summary["merged_fragments"] > 0) == (merge > 0.0), r.summary["merged_fragments"]
+        clean(r)
+    check("difference", abs(error[1e-6] - error[0.0]), 1e-6)
 
 
 def test_three_materials_come_back_from_the_vortex():

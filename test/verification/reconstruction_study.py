@@ -32,7 +32,9 @@ TWO = {"prescribed_velocity/period": 2.0, "run/end_time": 2.0}
 # title: deck, settings, cells along a side, part of the figure
 CASES = {
     "circle at rest": ("vortex/deck.yaml", STILL, [32, 64, 128, 256]),
+    "circle at rest, random quadrilaterals": ("vortex/deck.yaml", {**STILL, "mesh/jitter": 0.2}, [32, 64, 128, 256]),
     "vortex, T = 2": ("vortex/deck.yaml", TWO, [32, 64, 128, 256]),
+    "vortex, T = 2, random quadrilaterals": ("vortex/deck.yaml", {**TWO, "mesh/jitter": 0.2}, [32, 64, 128]),
     "vortex, T = 8": ("vortex/deck.yaml", {}, [32, 64, 128, 256]),
     "vortex, T = 2, three materials": ("vortex/three_materials.yaml", {}, [32, 64, 128]),
     "vortex, T = 8, three materials": ("vortex/three_materials.yaml", {"prescribed_velocity/period": 8.0, "run/end_time": 8.0}, [32, 64, 128]),

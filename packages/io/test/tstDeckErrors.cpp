@@ -107,8 +107,13 @@ TEST(DeckErrors, ImpossibleValue_showsTheRange)
             "deck.yaml: materials/copper/density: -1 is out of range; expected: number > 0 [kg/m^3]");
   EXPECT_EQ(message({"numerics/courant=1.5"}),
             "deck.yaml: numerics/courant: 1.5 is out of range; expected: number in (0, 1)");
+  EXPECT_EQ(message({"numerics/remap/order=4"}),
+            "deck.yaml: numerics/remap/order: 4 is out of range; expected: integer in [1, 3]");
   EXPECT_EQ(message({"numerics/remap/order=3"}),
-            "deck.yaml: numerics/remap/order: 3 is out of range; expected: integer in [1, 2]");
+            "deck.yaml: numerics/remap/order: 3 is by intersection alone; expected: "
+            "numerics/remap/swept_faces false");
+  EXPECT_EQ(message({"numerics/remap/hessian=contour"}),
+            "deck.yaml: numerics/remap/hessian: \"contour\" is for the third order; expected: numerics/remap/order 3");
   EXPECT_EQ(message({"gravity=[1, 2, 3]"}),
             "deck.yaml: gravity: [1, 2, 3] has the wrong length; expected: array of 2 numbers [m/s^2]");
   EXPECT_EQ(

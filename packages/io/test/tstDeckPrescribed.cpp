@@ -40,6 +40,31 @@ void expectRefused(std::string const &override, std::string const &start)
 
 } // namespace
 
+TEST(DeckPrescribed, jitter_isBelowAQuarterOfACellAndNotForBlocks)
+{
+  EXPECT_EQ(read().jitter, 0.0);
+  EXPECT_EQ(read({"mesh/jitter=0.2", "mesh/jitter_seed=7"}).jitter, 0.2);
+  EXPECT_EQ(read({"mesh/jitter=0.2", "mesh/jitter_seed=7"}).jitter_seed, 7);
+  expectRefused("mesh/jitter=0.25", "deck.yaml: mesh/jitter: 0.25 is out of range");
+  expectRefused("mesh/jitter_seed=-1", "deck.yaml: mesh/jitter_seed: -1 is out of range");
+  try
+  {
+    readDeckText(R"(harmos:
+  kinematics: lagrangian
+  mesh: {x: {from: 0, to: 1, cells: 8}, y: {from: 0, to: 1, cells: 8}, jitter: 0.1}
+  materials: {fluid: {eos: stiffened, density: 1, sound_speed: 1}}
+  bodies: {block: {material: fluid, shape: rectangle, center: [0.5, 0.5], size: [0.5, 0.5]}}
+  run: {end_time: 8}
+)",
+                 "deck.yaml", {});
+    FAIL();
+  }
+  catch (DeckError const &error)
+  {
+    EXPECT_STREQ(error.what(), "deck.yaml: mesh/jitter: the blocks of kinematics lagrangian have none; expected: 0");
+  }
+}
+
 TEST(DeckPrescribed, everyField_hasItsParameters)
 {
   PrescribedField const vortex = read().prescribed;

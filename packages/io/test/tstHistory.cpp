@@ -152,9 +152,26 @@ TEST(Summary, file_holdsEveryKeyInOrder)
   writeSummary("summary.json", summary);
   std::string const text = readWholeFile("summary.json");
   std::size_t at = 0;
-  for (char const *key : {"status", "cycles", "end_time", "pair_steps", "cell_steps", "wall_seconds", "cpu_seconds",
-                          "phases", "pair_steps_per_second", "peak_memory_bytes", "ranks", "mass_error",
-                          "momentum_error", "energy_error", "unconverged_cycles", "warnings", "versions", "deck"})
+  for (char const *key : {"status",
+                          "cycles",
+                          "end_time",
+                          "pair_steps",
+                          "cell_steps",
+                          "wall_seconds",
+                          "cpu_seconds",
+                          "phases",
+                          "pair_steps_per_second",
+                          "peak_memory_bytes",
+                          "ranks",
+                          "mass_error",
+                          "momentum_error",
+                          "energy_error",
+                          "unconverged_cycles",
+                          "merged_fragments",
+                          "unfinished_interfaces",
+                          "warnings",
+                          "versions",
+                          "deck"})
   {
     std::size_t const found = text.find("\"" + std::string(key) + "\": ");
     ASSERT_NE(found, std::string::npos) << key;

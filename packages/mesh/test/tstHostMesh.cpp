@@ -80,6 +80,45 @@ TEST(RectilinearMesh, coordinatesThatDoNotAscend_areRefused)
   EXPECT_THROW(rectilinearMesh({0.0}, {0.0, 1.0}), std::runtime_error);
 }
 
+TEST(RectilinearMesh, coordinatesThatDoNotAscend_areNamed)
+{
+  try
+  {
+    rectilinearMesh({2.0, 1.0}, {0.0, 1.0});
+    FAIL();
+  }
+  catch (std::runtime_error const &error)
+  {
+    EXPECT_STREQ(error.what(), "rectilinear mesh: x[1] = 1.000000 is not above 2.000000");
+  }
+}
+
+TEST(JitteredMesh, gradedLinesAndAnySeed_cellsAreConvexAndTheOutlineStays)
+{
+  std::vector<double> const x = gradedCoordinates(0.0, 1.0, 20, 7.0), y = gradedCoordinates(-1.0, 1.0, 15, 0.2);
+  HostMesh const straight = rectilinearMesh(x, y);
+  for (unsigned seed = 1; seed < 20; ++seed)
+  {
+    HostMesh const mesh = jitteredMesh(x, y, 0.2499, seed);
+    EXPECT_EQ(messageOf(mesh), "");
+    double most = 0.0;
+    for (std::size_t n = 0; n < mesh.node.size(); ++n)
+    {
+      std::size_t const i = n % x.size(), j = n / x.size();
+      bool const inner = i > 0 && i + 1 < x.size() && j > 0 && j + 1 < y.size();
+      EXPECT_TRUE(inner || mesh.node[n] == straight.node[n]);
+      if (inner)
+        most = std::max(most, std::fabs(mesh.node[n][0] - x[i]) / std::min(x[i] - x[i - 1], x[i + 1] - x[i]));
+    }
+    EXPECT_GT(most, 0.24);
+    EXPECT_LE(most, 0.2499 * (1.0 + 1e-12));
+    EXPECT_EQ(mesh.cell, straight.cell);
+    EXPECT_NE(mesh.node, jitteredMesh(x, y, 0.2499, seed + 1).node);
+  }
+  EXPECT_EQ(jitteredMesh(x, y, 0.0, 1).node, straight.node);
+  EXPECT_THROW(jitteredMesh(x, y, 0.25, 1), std::runtime_error);
+}
+
 TEST(CheckHostMesh, damagedMeshes_nameTheCell)
 {
   HostMesh const good = rectilinearMesh({0.0, 1.0, 2.0}, {0.0, 1.0, 2.0});

@@ -41,6 +41,30 @@ Scene stripes(bool with_void, bool corners)
       });
 }
 
+/// Three materials in every cell: two parallel lines through it, at angles that differ from cell to cell.
+Scene threeInEveryCell()
+{
+  Mesh const mesh = makeMesh(64, 64, 1.0, 0.05);
+  return paint(mesh,
+               [](int cell, Quadrilateral const &quad)
+               {
+                 double const angle = 137.5 * cell;
+                 Vector2 const middle = 0.25 * (quad[0] + quad[1] + quad[2] + quad[3]);
+                 Vector2 const n = halfPlane(angle, middle).normal;
+                 Body const all[3] = {{halfPlane(angle, middle - 0.2 * n)},
+                                      {halfPlane(angle, middle + 0.1 * n), halfPlane(angle + 180.0, middle - 0.2 * n)},
+                                      {halfPlane(angle + 180.0, middle + 0.1 * n)}};
+                 std::vector<Fill> fills;
+                 for (int k = 0; k < 3; ++k)
+                 {
+                   Region const part = intersection(quad, all[(k + cell) % 3]);
+                   Moments<1> const m = moments<1>(part, quad[0]);
+                   fills.push_back({k, m.volume(), quad[0] + m.centroid()});
+                 }
+                 return fills;
+               });
+}
+
 void measure(benchmark::State &state, Scene const &scene, ReconstructionMethod method, double sliver)
 {
   ReconstructionOptions options;
@@ -76,10 +100,16 @@ void leastSquares(benchmark::State &state)
   measure(state, stripes(false, false), ReconstructionMethod::MomentOfFluid, 1.0);
 }
 
+void momentOfFluidThreeMaterials(benchmark::State &state)
+{
+  measure(state, threeInEveryCell(), ReconstructionMethod::MomentOfFluid, 1e-3);
+}
+
 BENCHMARK(youngs);
 BENCHMARK(momentOfFluidTwoMaterials);
 BENCHMARK(momentOfFluidAndVoid);
 BENCHMARK(momentOfFluidWithCorners);
+BENCHMARK(momentOfFluidThreeMaterials);
 BENCHMARK(leastSquares);
 
 } // namespace

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 
 using namespace Harmos;
@@ -86,8 +85,8 @@ TEST(Reconstruct, straightLinesOnShakenQuads_leastSquaresIsExact)
 {
   double const two = worstStraightLine(1.0, false), one = worstStraightLine(1.0, true);
   std::printf("misplaced volume: %.1e two materials, %.1e with void\n", two, one);
-  EXPECT_LT(two, 1e-9);
-  EXPECT_LT(one, 1e-9);
+  EXPECT_LT(two, 1e-12);
+  EXPECT_LT(one, 1e-12);
 }
 
 TEST(Reconstruct, straightLinesWithDefaults_areExact)
@@ -251,54 +250,4 @@ TEST(Reconstruct, moreThanTwelveComponents_areReportedWithTheCell)
   Result const result = run(scene, ReconstructionMethod::MomentOfFluid);
   EXPECT_EQ(result.report.failures, 1);
   EXPECT_EQ(result.report.first_failed_cell, 4);
-}
-
-namespace
-{
-
-/// Up to five materials, and void in every other cell, with fractions down to 1e-12 and any centroids.
-CellFills randomFills(std::mt19937 &random)
-{
-  return [&random](int cell, Quadrilateral const &quad)
-  {
-    std::uniform_real_distribution<double> uniform(0.0, 1.0);
-    int const count = cell % 16 < 13 ? 1 + cell % 16 % 3 : 3 + cell % 16 % 3; // 13, 14, 15: 4, 5, 3 materials
-    double part[6], sum = 0.0;
-    int const parts = count + (cell % 2 == 0 || count == 1 ? 1 : 0);
-    for (int k = 0; k < parts; ++k)
-      sum += part[k] = uniform(random) < 0.4 ? std::pow(10.0, -12.0 * uniform(random)) : uniform(random);
-    std::vector<Fill> fills;
-    for (int k = 0; k < count; ++k)
-    {
-      Vector2 x{0.0, 0.0};
-      double weight = 0.0;
-      for (int c = 0; c < 4; ++c)
-      {
-        double const w = uniform(random);
-        weight += w;
-        x += w * quad[c];
-      }
-      fills.push_back({k, part[k] / sum * area(quad), (1.0 / weight) * x});
-    }
-    return fills;
-  };
-}
-
-} // namespace
-
-TEST(Reconstruct, randomFractionsInRandomCells_volumesAreExact)
-{
-  std::mt19937 random(17);
-  Scene const scene = paint(makeMesh(400, 250, 0.01, 0.25), randomFills(random));
-  for (auto const method : {ReconstructionMethod::Youngs, ReconstructionMethod::MomentOfFluid})
-  {
-    auto const begin = std::chrono::steady_clock::now();
-    Result const result = run(scene, method);
-    double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    std::printf("%d mixed cells, largest volume error %.1e, %.2f us a cell\n", result.regions.num_mixed_cells,
-                result.report.largest_volume_error, 1e6 * seconds / result.regions.num_mixed_cells);
-    EXPECT_GT(result.regions.num_mixed_cells, 95000);
-    EXPECT_EQ(result.report.failures, 0) << "first in cell " << result.report.first_failed_cell;
-    EXPECT_LT(result.report.largest_volume_error, 1e-12);
-  }
 }

@@ -68,8 +68,8 @@ KOKKOS_INLINE_FUNCTION Moments<2> inflowMoments(Mesh const &mesh, int acceptor, 
     y[k] = q[k][1] - origin[1];
   }
   bool whole;
-  Moments<2> const m = momentsInside<4>(4, x, y, windowAbout(mesh, acceptor, origin), whole);
-  return whole ? momentsOfVertices(4, x, y) : m;
+  Moments<2> const m = momentsInside<Moments<2>, 4>(4, x, y, windowAbout(mesh, acceptor, origin), whole);
+  return whole ? momentsOfVertices<Moments<2>>(4, x, y) : m;
 }
 
 /// Find the materials of every interface cell after the remap, those of its overlays, of what flows in, of rigid

@@ -70,21 +70,59 @@ KOKKOS_INLINE_FUNCTION T limitedPart(MovedVertices const &v, T const &q, T const
 /// Gradients of the corner velocities come from velocities before stage 1, so that they need no wider halo.
 struct PolynomialFinder
 {
+  using Polynomial = DonorPolynomial;
+  using OverlayMoments = Moments<2>;
+
   Input in;
   Classes classes;
   StageState stage;
   Donors donors;
+
+  KOKKOS_INLINE_FUNCTION static Polynomial constant(StageFields const &mean) { return constantPolynomial(mean); }
+
+  KOKKOS_INLINE_FUNCTION OverlayMoments wholeMoments(int donor, MovedVertices const &) const
+  {
+    OverlayMoments m;
+    for (int i = 0; i < OverlayMoments::count; ++i)
+      m.value[i] = i == 1 || i == 2 ? 0.0 : donors.shape(donor, i);
+    return m;
+  }
+
+  /// Integrals of the donor's fields over one overlay with moments V, S, T about its centroid:
+  /// mass = rho V + grad rho . S; integral of rho phi = phi mass + grad phi . (rho S + T grad rho - e mass);
+  /// deviator: s V + grad s . S.
+  KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m)
+  {
+    double const rho = p.mean.record[DensityField];
+    double const rx = p.x.record[DensityField], ry = p.y.record[DensityField];
+    double const mass = rho * m.volume() + (rx * m.first(0) + ry * m.first(1));
+    double const x = rho * m.first(0) + (m.second(0, 0) * rx + m.second(0, 1) * ry) - p.mass_offset[0] * mass;
+    double const y = rho * m.first(1) + (m.second(0, 1) * rx + m.second(1, 1) * ry) - p.mass_offset[1] * mass;
+    StageFields out;
+    out.record = p.mean.record * fieldWeights(m.volume(), mass) +
+                 (p.x.record * fieldWeights(m.first(0), x) + p.y.record * fieldWeights(m.first(1), y));
+    out.corner = p.mean.corner * FieldPack(mass) + (p.x.corner * FieldPack(x) + p.y.corner * FieldPack(y));
+    return out;
+  }
 
   struct Gradient
   {
     StageFields x, y, lower, upper;
   };
 
+  /// What Van Leer's limiter compares with: same-material pairs beyond the faces.
+  struct FaceNeighbours
+  {
+    int size = 0;
+    Vector2 offset[4];
+    StageFields difference[4];
+  };
+
   /// A same-material pair of a neighbour between the stages.
   struct Neighbour
   {
     StageFields value; // corner velocities before stage 1, in the order of the donor's corners
-    double volume;
+    double filled;     // part of its cell before the move: that of the target cell would make the weights lopsided
     Vector2 centroid;
   };
 
@@ -93,7 +131,7 @@ struct PolynomialFinder
     int const other = donors.find(index, material);
     if (other < 0)
       return false;
-    n.volume = donors.shape(other, 0);
+    n.filled = in.state.record(donors.head(other).pair, VolumeFraction);
     n.centroid = {donors.shape(other, 1), donors.shape(other, 2)};
     n.value = {FieldPack(&donors.value(other, 0)), rotatedCorners(&donors.half(other, 0), rotation)};
     return true;
@@ -105,10 +143,10 @@ struct PolynomialFinder
     if (classes.pure_material(cell) != material)
       return false;
     int const pair = in.pairs.offset(cell);
-    n.volume = in.mesh.cell_area(cell);
+    n.filled = 1.0;
     n.centroid = areaCentroid(cellQuadrilateral(in.mesh, cell).vertex).centroid;
     FieldPack record(&stage.record(pair, 0));
-    record.set<DensityField>(stage.record(pair, Mass) / n.volume);
+    record.set<DensityField>(stage.record(pair, Mass) / in.mesh.cell_area(cell));
     record.set<KineticField>(stage.kineticEnergy(in.pairs, pair));
     double corner[8];
     cornerVelocities(in.pairs, in.half, pair, corner);
@@ -116,10 +154,26 @@ struct PolynomialFinder
     return true;
   }
 
+  KOKKOS_INLINE_FUNCTION bool isAtBoundary(int cell) const
+  {
+    bool any = false;
+    for (int k = 0; k < 4; ++k)
+      any = any || in.mesh.face_neighbour(cell, k) < 0;
+    return any;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool isBeyondFace(int cell, int neighbour) const
+  {
+    bool any = false;
+    for (int k = 0; k < 4; ++k)
+      any = any || (in.mesh.face_neighbour(cell, k) >= 0 && in.mesh.face_neighbour(cell, k) / 4 == neighbour);
+    return any;
+  }
+
   /// Least-squares gradient weighted by filled part over distance squared; along a line where all neighbours lie on
   /// one. Widens the range by the neighbours' values.
   KOKKOS_INLINE_FUNCTION void gradient(int cell, int material, Vector2 const &centroid, StageFields const &q,
-                                       Gradient &g) const
+                                       Gradient &g, FaceNeighbours &beyond) const
   {
     double xx = 0.0, xy = 0.0, yy = 0.0;
     StageFields bx = stageFields(0.0), by = stageFields(0.0);
@@ -133,13 +187,18 @@ struct PolynomialFinder
         continue;
       Vector2 const d = n.centroid - centroid;
       double const distance2 = dot(d, d);
-      if (!(distance2 > 0.0) || !(n.volume > 0.0))
+      if (!(distance2 > 0.0))
         continue;
-      double const w = n.volume / (in.mesh.cell_area(neighbour) * distance2);
+      double const w = n.filled / distance2;
       xx += w * d[0] * d[0];
       xy += w * d[0] * d[1];
       yy += w * d[1] * d[1];
       StageFields const difference = n.value - q;
+      if (in.options.limiter == RemapLimiter::VanLeer && isBeyondFace(cell, neighbour) && beyond.size < 4)
+      {
+        beyond.offset[beyond.size] = d;
+        beyond.difference[beyond.size++] = difference;
+      }
       addTimes(bx, w * d[0], difference);
       addTimes(by, w * d[1], difference);
       g.lower = {lesser(g.lower.record, n.value.record), lesser(g.lower.corner, n.value.corner)};
@@ -154,6 +213,39 @@ struct PolynomialFinder
     addTimes(g.x, scale * (line ? 0.0 : -xy), by);
     addTimes(g.y, scale * (line ? 1.0 : xx), by);
     addTimes(g.y, scale * (line ? 0.0 : -xy), bx);
+  }
+
+  /// The largest part of gradients, at most all, that halfway to each neighbour keeps the values between theirs.
+  KOKKOS_INLINE_FUNCTION static Pack vanLeerPart(FaceNeighbours const &beyond, bool corner, int p, Pack const &gx,
+                                                 Pack const &gy)
+  {
+    Pack part = 1.0;
+    for (int k = 0; k < beyond.size; ++k)
+    {
+      FieldPack const &all = corner ? beyond.difference[k].corner : beyond.difference[k].record;
+      Pack const difference = all.part[p];
+      Pack const rise = 0.5 * (Pack(beyond.offset[k][0]) * gx + Pack(beyond.offset[k][1]) * gy);
+      auto const outside = rise * (difference - rise) < Pack(0.0);
+      part = Math::min(part, select(outside, Pack(difference / select(outside, rise, Pack(1.0))), Pack(1.0)));
+    }
+    return Math::max(part, Pack(0.0));
+  }
+
+  KOKKOS_INLINE_FUNCTION static void limitVanLeer(FaceNeighbours const &beyond, bool corner, FieldPack &gx,
+                                                  FieldPack &gy)
+  {
+    for (int p = 0; p < FieldPack::parts; ++p)
+    {
+      Pack const part = vanLeerPart(beyond, corner, p, gx.part[p], gy.part[p]);
+      gx.part[p] = part * gx.part[p];
+      gy.part[p] = part * gy.part[p];
+    }
+  }
+
+  KOKKOS_INLINE_FUNCTION bool limitsToRange(int cell) const
+  {
+    return in.options.limiter == RemapLimiter::Range ||
+           (in.options.limiter == RemapLimiter::RangeInside && !isAtBoundary(cell));
   }
 
   /// Scale the gradient of eight fields; those of weight one in `by_mass` are limited about the mass centroid.
@@ -184,18 +276,31 @@ struct PolynomialFinder
     Gradient g;
     g.lower = {q.record, lesser(q.corner, before.corner)};
     g.upper = {q.record, greater(q.corner, before.corner)};
-    gradient(cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before, g);
+    FaceNeighbours beyond;
+    gradient(cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before, g, beyond);
+    if (in.options.limiter == RemapLimiter::VanLeer)
+    {
+      limitVanLeer(beyond, false, g.x.record, g.y.record);
+      limitVanLeer(beyond, true, g.x.corner, g.y.corner);
+    }
+    bool const to_range = limitsToRange(cell);
     double const rho = q.record[DensityField];
     double gx = g.x.record[DensityField], gy = g.y.record[DensityField];
-    double const alpha =
-        limitedPart<double>(v, rho, gx, gy, 0.0, g.lower.record[DensityField], g.upper.record[DensityField]);
-    gx *= alpha;
-    gy *= alpha;
+    if (to_range)
+    {
+      double const alpha =
+          limitedPart<double>(v, rho, gx, gy, 0.0, g.lower.record[DensityField], g.upper.record[DensityField]);
+      gx *= alpha;
+      gy *= alpha;
+    }
     double const per_mass = 1.0 / (rho * donors.shape(donor, 0));
     Vector2 const e{per_mass * (donors.shape(donor, 3) * gx + donors.shape(donor, 4) * gy),
                     per_mass * (donors.shape(donor, 4) * gx + donors.shape(donor, 5) * gy)};
-    limit(v, e, fieldWeights(0.0, 1.0), q.record, g.lower.record, g.upper.record, g.x.record, g.y.record);
-    limit(v, e, FieldPack(1.0), q.corner, g.lower.corner, g.upper.corner, g.x.corner, g.y.corner);
+    if (to_range)
+    {
+      limit(v, e, fieldWeights(0.0, 1.0), q.record, g.lower.record, g.upper.record, g.x.record, g.y.record);
+      limit(v, e, FieldPack(1.0), q.corner, g.lower.corner, g.upper.corner, g.x.corner, g.y.corner);
+    }
     g.x.record.set<DensityField>(gx);
     g.y.record.set<DensityField>(gy);
     result.x = g.x;

@@ -11,29 +11,41 @@ namespace RemapDetail
 namespace
 {
 
-/// Displacements of the corners of a pair in stage 2: swept nodes are at home already. False where none moves.
-KOKKOS_INLINE_FUNCTION bool cornerDisplacements(Input const &in, Classes const &classes, int cell, int pair,
-                                                Vector2 u[4])
+/// The corners of a pair in stage 2: q at the start, moved to x = q + u; swept nodes are at home already.
+struct MovedCorners
+{
+  Quadrilateral q, x;
+  Vector2 u[4];
+};
+
+/// False where no corner moves, nor the mesh does there.
+KOKKOS_INLINE_FUNCTION bool moveCorners(Input const &in, Classes const &classes, int cell, int pair, MovedCorners &c)
 {
   bool moves = false;
+  c.q = in.startQuadrilateral(cell);
+  c.x.size = 4;
   for (int k = 0; k < 4; ++k)
   {
-    bool const swept = classes.node_return(in.mesh.cell_node(cell, k)) == SweptNode;
-    u[k] = swept ? Vector2{0.0, 0.0} : in.displacement(in.pairs.dof_node(pair, k));
-    moves = moves || u[k][0] != 0.0 || u[k][1] != 0.0;
+    int const node = in.mesh.cell_node(cell, k);
+    bool const swept = classes.node_return(node) == SweptNode;
+    Vector2 const home = in.node(node);
+    c.u[k] = swept ? home - c.q[k] : in.displacement(in.pairs.dof_node(pair, k));
+    c.x[k] = swept ? home : c.q[k] + c.u[k];
+    moves = moves || c.u[k][0] != 0.0 || c.u[k][1] != 0.0 || home[0] != c.q[k][0] || home[1] != c.q[k][1];
   }
   return moves;
 }
 
-KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Vector2 const u[4], Region &region)
+KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, MovedCorners const &c, Region &region)
 {
-  Quadrilateral const q = cellQuadrilateral(in.mesh, cell);
+  Quadrilateral const &q = c.q;
+  Vector2 const *const u = c.u;
   int const first = in.regions.cell_region(cell);
   if (first < 0)
   {
     region.size = 4;
     for (int k = 0; k < 4; ++k)
-      region[k] = q[k] + u[k];
+      region[k] = c.x[k];
     return;
   }
   Region const &still = in.regions.polygon(first + pair - in.pairs.offset(cell));
@@ -48,7 +60,7 @@ KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Vect
     double N[4];
     if (corner < 0)
       shapeFunctionsAt(q, x, N);
-    region[i] = x + (corner >= 0 ? u[corner] : (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]));
+    region[i] = corner >= 0 ? c.x[corner] : x + ((N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]));
   }
 }
 
@@ -76,12 +88,19 @@ KOKKOS_INLINE_FUNCTION bool isFolded(Region const &region)
 }
 
 /// A needle thinner than the bilinear map bends would fold: it moves as a whole, by the displacement of its centroid.
-KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, Vector2 const u[4], Region &region)
+KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, MovedCorners const &c, Region &region)
 {
-  region = in.regions.region(in.mesh, in.pairs, pair);
+  int const first = in.regions.cell_region(cell);
+  region.size = 4;
+  if (first >= 0)
+    region = in.regions.polygon(first + pair - in.pairs.offset(cell));
+  else
+    for (int k = 0; k < 4; ++k)
+      region[k] = c.q[k];
+  Vector2 const *const u = c.u;
   Vector2 const centroid = region[0] + moments<1>(region, region[0]).centroid();
   double N[4];
-  shapeFunctionsAt(cellQuadrilateral(in.mesh, cell), centroid, N);
+  shapeFunctionsAt(c.q, centroid, N);
   Vector2 const shift = (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]);
   for (int i = 0; i < region.size; ++i)
     region[i] += shift;
@@ -113,7 +132,7 @@ KOKKOS_INLINE_FUNCTION bool setMovedShape(Donors const &donors, int donor, Regio
   return true;
 }
 
-/// Where a whole donor is: the region at time n.
+/// Where a whole donor is: the region at time n, carried to the mesh.
 KOKKOS_INLINE_FUNCTION void setStillShape(Input const &in, Donors const &donors, int donor, int pair)
 {
   int const cell = in.pairs.cell(pair);
@@ -125,7 +144,7 @@ KOKKOS_INLINE_FUNCTION void setStillShape(Input const &in, Donors const &donors,
   }
   else
     setShape(donors, donor, in.state.record(pair, VolumeFraction) * cell_area,
-             {in.state.centroid(pair, 0), in.state.centroid(pair, 1)});
+             in.carried(cell, {in.state.centroid(pair, 0), in.state.centroid(pair, 1)}));
 }
 
 struct MoveFunctor
@@ -148,14 +167,14 @@ struct MoveFunctor
 
   KOKKOS_INLINE_FUNCTION int move(int donor, int cell, int pair) const
   {
-    Vector2 u[4];
+    MovedCorners c;
     int kind = QuietDonor;
-    if (cornerDisplacements(in, classes, cell, pair, u))
+    if (moveCorners(in, classes, cell, pair, c))
     {
       Region &region = donors.polygon(donor);
-      moveRegion(in, cell, pair, u, region);
+      moveRegion(in, cell, pair, c, region);
       if (isFolded(region))
-        shiftRegion(in, cell, pair, u, region);
+        shiftRegion(in, cell, pair, c, region);
       bool const sound = setMovedShape(donors, donor, region, 1e-15 * in.mesh.cell_area(cell));
       kind = sound ? MovingDonor : DegenerateDonor;
     }

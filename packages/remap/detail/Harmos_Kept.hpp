@@ -17,12 +17,14 @@ struct Kept
   SweptChunks chunks;
   SweptWindow window;
   NeighbourLinks links;
+  bool moved_mesh = false; // the links are of a mesh that is not the caller's for good
 
   // Held so that their addresses are not given to others: equal addresses then mean equal contents.
   CellMaterialPairs pairs;
   BoundaryConditions conditions;
   View<Material *> materials;
   Classes classes;
+  bool swept_faces = true; // what the classes are for
 
   // Work arrays of stage 2, as large as they were ever needed.
   Donors donors;

@@ -16,8 +16,58 @@ KOKKOS_INLINE_FUNCTION Vector2 acceptorOrigin(Mesh const &mesh, int cell)
   return {mesh.node_position(node, 0), mesh.node_position(node, 1)};
 }
 
-/// Moments of a simple polygon about the origin: Harmos::moments for vertices in two arrays.
-KOKKOS_INLINE_FUNCTION Moments<2> momentsOfVertices(int size, double const *x, double const *y)
+/// Integrals of the monomials up to degree 4: degree n, power k of y at n (n + 1) / 2 + k.
+struct QuarticMoments
+{
+  static constexpr int count = 15;
+  double value[count] = {};
+
+  KOKKOS_INLINE_FUNCTION double volume() const { return value[0]; }
+  KOKKOS_INLINE_FUNCTION double first(int d) const { return value[1 + d]; }
+};
+
+/// Moments of a simple polygon about the origin, vertices in two arrays.
+template <class M>
+KOKKOS_INLINE_FUNCTION M momentsOfVertices(int size, double const *x, double const *y);
+
+/// An edge a -> b and the origin span a triangle, over which a monomial of degree n has the integral
+/// (a x b) / (n + 2) times its mean along the edge: three Gauss points are exact up to degree 5.
+template <>
+KOKKOS_INLINE_FUNCTION QuarticMoments momentsOfVertices<QuarticMoments>(int size, double const *x, double const *y)
+{
+  double const point[3] = {0.5 - 0.5 * 0.7745966692414834, 0.5, 0.5 + 0.5 * 0.7745966692414834};
+  double const weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+  QuarticMoments m;
+  double ax = x[size - 1], ay = y[size - 1];
+  for (int i = 0; i < size; ++i)
+  {
+    double const bx = x[i], by = y[i];
+    double const c = ax * by - ay * bx;
+    for (int g = 0; g < 3; ++g)
+    {
+      double const px = ax + point[g] * (bx - ax), py = ay + point[g] * (by - ay);
+      double const w = c * weight[g];
+      double const power_x[5] = {1.0, px, px * px, px * px * px, px * px * (px * px)};
+      double power_y = w;
+      for (int k = 0; k < 5; ++k)
+      {
+        for (int n = k; n < 5; ++n)
+          m.value[n * (n + 1) / 2 + k] += power_x[n - k] * power_y;
+        power_y *= py;
+      }
+    }
+    ax = bx;
+    ay = by;
+  }
+  for (int n = 0; n < 5; ++n)
+    for (int k = 0; k <= n; ++k)
+      m.value[n * (n + 1) / 2 + k] *= 1.0 / (n + 2);
+  return m;
+}
+
+/// Harmos::moments for vertices in two arrays.
+template <>
+KOKKOS_INLINE_FUNCTION Moments<2> momentsOfVertices<Moments<2>>(int size, double const *x, double const *y)
 {
   Moments<2> m;
   double ax = x[size - 1], ay = y[size - 1];
@@ -61,9 +111,8 @@ KOKKOS_INLINE_FUNCTION Window windowAbout(Mesh const &mesh, int cell, Vector2 co
 
 /// Moments about the origin of the part of a polygon of at most Capacity vertices in a convex window, by clipping
 /// (Harmos_Clip.hpp) between two buffers; `whole` tells that nothing was cut off: then they are not computed.
-template <int Capacity>
-KOKKOS_INLINE_FUNCTION Moments<2> momentsInside(int size, double const *x, double const *y, Window const &window,
-                                                bool &whole)
+template <class M, int Capacity>
+KOKKOS_INLINE_FUNCTION M momentsInside(int size, double const *x, double const *y, Window const &window, bool &whole)
 {
   constexpr int capacity = 6 * Capacity; // a cut makes at most 3 n / 2 vertices of n, where motion has bent the region
   double buffer_x[2][capacity], buffer_y[2][capacity], distance[capacity];
@@ -114,7 +163,7 @@ KOKKOS_INLINE_FUNCTION Moments<2> momentsInside(int size, double const *x, doubl
     y = next_y;
   }
   whole = !cut;
-  return cut ? momentsOfVertices(size, x, y) : Moments<2>{};
+  return cut ? momentsOfVertices<M>(size, x, y) : M{};
 }
 
 } // namespace RemapDetail

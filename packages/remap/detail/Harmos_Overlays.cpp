@@ -3,6 +3,7 @@
 
 #include <detail/Harmos_DonorPolynomial.hpp>
 #include <detail/Harmos_OverlayMoments.hpp>
+#include <detail/Harmos_QuadraticPolynomial.hpp>
 
 namespace Harmos
 {
@@ -69,12 +70,13 @@ KOKKOS_INLINE_FUNCTION bool curvedWallAround(Input const &in, int cell)
 }
 
 /// A donor at work.
-struct Donor
+template <class Polynomial>
+struct DonorAtWork
 {
   int number, cell;
   double volume, mass;
   Vector2 centroid;
-  DonorPolynomial polynomial;
+  Polynomial polynomial;
   unsigned long long overlaps;
   // what is left of it, and the largest overlay
   StageFields rest;
@@ -84,37 +86,28 @@ struct Donor
   int largest_slot;
 };
 
-struct IntersectFunctor : PolynomialFinder
+/// Finder: PolynomialFinder, QuadraticFinder.
+template <class Finder>
+struct IntersectFunctor : Finder
 {
+  using OverlayMoments = typename Finder::OverlayMoments;
+  using Donor = DonorAtWork<typename Finder::Polynomial>;
+  using Finder::classes;
+  using Finder::donors;
+  using Finder::in;
+  using Finder::stage;
   Overlays overlays;
   Bookings bookings;
 
-  IntersectFunctor(PolynomialFinder const &finder, Overlays const &o, Bookings const &b)
-      : PolynomialFinder(finder), overlays(o), bookings(b)
+  IntersectFunctor(Finder const &finder, Overlays const &o, Bookings const &b)
+      : Finder(finder), overlays(o), bookings(b)
   {
-  }
-
-  /// Integrals of the donor's fields over one overlay with moments V, S, T about its centroid:
-  /// mass = rho V + grad rho . S; integral of rho phi = phi mass + grad phi . (rho S + T grad rho - e mass);
-  /// deviator: s V + grad s . S.
-  KOKKOS_INLINE_FUNCTION static StageFields integrate(DonorPolynomial const &p, Moments<2> const &m)
-  {
-    double const rho = p.mean.record[DensityField];
-    double const rx = p.x.record[DensityField], ry = p.y.record[DensityField];
-    double const mass = rho * m.volume() + (rx * m.first(0) + ry * m.first(1));
-    double const x = rho * m.first(0) + (m.second(0, 0) * rx + m.second(0, 1) * ry) - p.mass_offset[0] * mass;
-    double const y = rho * m.first(1) + (m.second(0, 1) * rx + m.second(1, 1) * ry) - p.mass_offset[1] * mass;
-    StageFields out;
-    out.record = p.mean.record * fieldWeights(m.volume(), mass) +
-                 (p.x.record * fieldWeights(m.first(0), x) + p.y.record * fieldWeights(m.first(1), y));
-    out.corner = p.mean.corner * FieldPack(mass) + (p.x.corner * FieldPack(x) + p.y.corner * FieldPack(y));
-    return out;
   }
 
   /// Book an overlay in the acceptor's slot.
-  KOKKOS_INLINE_FUNCTION void take(Donor &d, int slot, int acceptor, Moments<2> const &m) const
+  KOKKOS_INLINE_FUNCTION void take(Donor &d, int slot, int acceptor, OverlayMoments const &m) const
   {
-    StageFields const part = integrate(d.polynomial, m);
+    StageFields const part = Finder::integrate(d.polynomial, m);
     d.rest -= part;
     d.rest_volume -= m.volume();
     d.rest_first -= Vector2{m.first(0), m.first(1)};
@@ -139,7 +132,7 @@ struct IntersectFunctor : PolynomialFinder
   {
     d.overlaps = 0;
     d.rest.record = d.polynomial.mean.record * fieldWeights(d.volume, d.mass);
-    d.rest.record.set<DensityField>(d.mass);
+    d.rest.record.template set<DensityField>(d.mass);
     d.rest.corner = d.polynomial.mean.corner * FieldPack(d.mass);
     d.rest_volume = d.volume;
     d.rest_first = {0.0, 0.0};
@@ -150,7 +143,7 @@ struct IntersectFunctor : PolynomialFinder
   /// A whole donor lies in its own cell.
   KOKKOS_INLINE_FUNCTION void takeWhole(Donor &d) const
   {
-    Moments<2> m;
+    OverlayMoments m;
     m.value[0] = d.volume;
     take(d, 0, d.cell, m);
   }
@@ -178,10 +171,9 @@ struct IntersectFunctor : PolynomialFinder
           high_y <= in.links.box(acceptor, 1) || low_y >= in.links.box(acceptor, 3))
         continue;
       Window const w = windowAbout(in.mesh, acceptor, d.centroid);
-      Moments<2> m = momentsInside<max_region_vertices>(v.size, v.x, v.y, w, whole);
+      OverlayMoments m = momentsInside<OverlayMoments, max_region_vertices>(v.size, v.x, v.y, w, whole);
       if (whole)
-        for (int i = 0; i < Moments<2>::count; ++i)
-          m.value[i] = i == 1 || i == 2 ? 0.0 : donors.shape(d.number, i);
+        m = Finder::wholeMoments(d.number, v);
       if (m.volume() > least_overlay * in.mesh.cell_area(acceptor))
         take(d, s, acceptor, m);
     }
@@ -191,11 +183,12 @@ struct IntersectFunctor : PolynomialFinder
   KOKKOS_INLINE_FUNCTION void makeWhole(Donor &d, int pair) const
   {
     double const volume = in.state.record(pair, VolumeFraction) * in.mesh.cell_area(d.cell);
-    d.polynomial = constantPolynomial(loadStageFields(&donors.value(d.number, 0)));
-    d.polynomial.mean.record.set<DensityField>(d.polynomial.mean.record[DensityField] * (d.volume / volume));
+    StageFields mean = loadStageFields(&donors.value(d.number, 0));
+    mean.record.template set<DensityField>(mean.record[DensityField] * (d.volume / volume));
+    d.polynomial = Finder::constant(mean);
     d.volume = volume;
     if (in.pairs.cell_kind(d.cell) != PureCell)
-      d.centroid = {in.state.centroid(pair, 0), in.state.centroid(pair, 1)};
+      d.centroid = in.carried(d.cell, {in.state.centroid(pair, 0), in.state.centroid(pair, 1)});
     begin(d);
     takeWhole(d);
   }
@@ -234,9 +227,9 @@ struct IntersectFunctor : PolynomialFinder
         bookings(index, BookFailedMaterial) = donors.head(d.number).material + 1.0;
       bookings(index, BookFailures) += 1.0;
     }
-    d.rest.record.set<DeviatorXX>(0.0);
-    d.rest.record.set<DeviatorYY>(0.0);
-    d.rest.record.set<DeviatorXY>(0.0);
+    d.rest.record.template set<DeviatorXX>(0.0);
+    d.rest.record.template set<DeviatorYY>(0.0);
+    d.rest.record.template set<DeviatorXY>(0.0);
     d.rest.store(&overlays.residue(d.number, 0));
     return d.largest_slot;
   }
@@ -255,7 +248,7 @@ struct IntersectFunctor : PolynomialFinder
     if (head.kind == MovingDonor)
     {
       MovedVertices const v = verticesAbout(donors.polygon(number), d.centroid);
-      d.polynomial = polynomial(number, cell, v);
+      d.polynomial = Finder::polynomial(number, cell, v);
       begin(d);
       intersectCells(d, v);
       if (d.overlaps == 0)
@@ -263,7 +256,7 @@ struct IntersectFunctor : PolynomialFinder
     }
     else
     {
-      d.polynomial = constantPolynomial(loadStageFields(&donors.value(number, 0)));
+      d.polynomial = Finder::constant(loadStageFields(&donors.value(number, 0)));
       begin(d);
       takeWhole(d);
     }
@@ -290,8 +283,14 @@ void intersect(Input const &in, Classes const &classes, StageState const &stage,
   overlays.slots = in.links.slots;
   grow(overlays.sum, "overlaySum", static_cast<std::size_t>(overlays.slots) * donors.num);
   grow(overlays.residue, "residue", donors.num);
-  Kokkos::parallel_for("Harmos::remap::intersect", RangePolicy(0, classes.num_interface),
-                       IntersectFunctor(PolynomialFinder{in, classes, stage, donors}, overlays, bookings));
+  PolynomialFinder const finder{in, classes, stage, donors};
+  RangePolicy const range(0, classes.num_interface);
+  if (in.options.order == 3)
+    Kokkos::parallel_for("Harmos::remap::intersect", range,
+                         IntersectFunctor<QuadraticFinder>(QuadraticFinder(finder), overlays, bookings));
+  else
+    Kokkos::parallel_for("Harmos::remap::intersect", range,
+                         IntersectFunctor<PolynomialFinder>(finder, overlays, bookings));
 }
 
 } // namespace RemapDetail

@@ -100,7 +100,7 @@ struct Classifier
     int const begin = in.mesh.node_cell.offset(node);
     int const end = in.mesh.node_cell.offset(node + 1);
     int const first = begin < end ? classes.pure_material(in.mesh.node_cell.item(begin) / 4) : -2;
-    bool uniform = first >= 0;
+    bool uniform = first >= 0 && in.options.swept_faces;
     bool deformable = false;
     int open = 0;
     for (int j = begin; j < end; ++j)

@@ -25,9 +25,30 @@ struct Input
   RigidRows rigid;
   RemapOptions options;
   NeighbourLinks links;
+  View<double *[2]> start; // of the nodes: where the motion began; the mesh's own positions unless it is another mesh
+  bool retargeted = false; // it is
 
   KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
   KOKKOS_INLINE_FUNCTION Vector2 node(int n) const { return {mesh.node_position(n, 0), mesh.node_position(n, 1)}; }
+  KOKKOS_INLINE_FUNCTION Vector2 startNode(int n) const { return {start(n, 0), start(n, 1)}; }
+  KOKKOS_INLINE_FUNCTION Quadrilateral startQuadrilateral(int cell) const
+  {
+    Quadrilateral q;
+    q.size = 4;
+    for (int k = 0; k < 4; ++k)
+      q[k] = startNode(mesh.cell_node(cell, k));
+    return q;
+  }
+  /// The point of the mesh with the local coordinates that a point of a cell had at the start.
+  KOKKOS_INLINE_FUNCTION Vector2 carried(int cell, Vector2 const &x) const
+  {
+    if (!retargeted)
+      return x;
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    double N[4];
+    shapeFunctionsAt(startQuadrilateral(cell), x, N);
+    return (N[0] * q[0] + N[1] * q[1]) + (N[2] * q[2] + N[3] * q[3]);
+  }
   KOKKOS_INLINE_FUNCTION Vector2 displacement(int dof) const { return {dt * half(dof, 0), dt * half(dof, 1)}; }
 };
 

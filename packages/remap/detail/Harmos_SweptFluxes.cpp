@@ -37,6 +37,13 @@ struct Directions
   Pack x0, x1, y0, y1;
 };
 
+/// The centroids of the face neighbours from the cell's.
+struct Beyond
+{
+  Pack x[4], y[4];
+  Pack at_boundary; // 1 where a face has no cell beyond it
+};
+
 struct SweptFluxFunctor
 {
   SweptStage stage;
@@ -109,10 +116,38 @@ struct SweptFluxFunctor
             Math::max(Math::max(q, Math::max(p[0], p[1])), Math::max(p[2], p[3]))};
   }
 
+  /// The largest part of the gradient, at most all, that halfway to each face neighbour keeps the value between theirs
+  /// (van Leer, J. Comput. Phys. 23 (1977) 276).
+  KOKKOS_FORCEINLINE_FUNCTION static Pack vanLeerPart(Field const &f, Beyond const &beyond, Pack const (&p)[4])
+  {
+    Pack part = 1.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      Pack const rise = 0.5 * (beyond.x[k] * f.gradient_x + beyond.y[k] * f.gradient_y);
+      Pack const difference = p[k] - f.q;
+      auto const outside = rise * (difference - rise) < Pack(0.0);
+      part = Math::min(part, select(outside, Pack(difference / select(outside, rise, Pack(1.0))), Pack(1.0)));
+    }
+    return Math::max(part, Pack(0.0));
+  }
+
+  /// The part of the gradient that the limiter leaves, and the whole deviations from the mean at the faces.
+  KOKKOS_FORCEINLINE_FUNCTION Pack limit(Field const &f, Beyond const &beyond, Pack const (&p)[4], Outflow const &out,
+                                         Pack const (&weight)[4], Pack const &per_staying, Pack (&deviation)[4]) const
+  {
+    if (stage.limiter == RemapLimiter::Range)
+      return rangePart(f, out, weight, per_staying, deviation);
+    if (stage.limiter == RemapLimiter::RangeInside)
+      return Math::max(rangePart(f, out, weight, per_staying, deviation), beyond.at_boundary);
+    for (int k = 0; k < 4; ++k)
+      deviation[k] = out.x[k] * f.gradient_x + out.y[k] * f.gradient_y;
+    return stage.limiter == RemapLimiter::VanLeer ? vanLeerPart(f, beyond, p) : Pack(1.0);
+  }
+
   /// The deviations from the mean at the faces, and the largest part of them, at most all, that keeps those and the
   /// mean of what stays within range.
-  KOKKOS_FORCEINLINE_FUNCTION static Pack limit(Field const &f, Outflow const &out, Pack const (&weight)[4],
-                                                Pack const &per_staying, Pack (&deviation)[4])
+  KOKKOS_FORCEINLINE_FUNCTION static Pack rangePart(Field const &f, Outflow const &out, Pack const (&weight)[4],
+                                                    Pack const &per_staying, Pack (&deviation)[4])
   {
     Pack low = 0.0, high = 0.0, left = 0.0;
     for (int k = 0; k < 4; ++k)
@@ -164,22 +199,27 @@ struct SweptFluxFunctor
     Outflow const out = outflow(row, centre);
     if (!(out.leaves[0] || out.leaves[1] || out.leaves[2] || out.leaves[3]))
       return;
-    Pack x[4], y[4], density[4];
+    Beyond offset;
+    Pack density[4];
     for (int k = 0; k < 4; ++k)
     {
       Pack beyond[8];
       loadGeometry(cells.beyond[k], beyond);
-      x[k] = beyond[CentroidX] - row[CentroidX];
-      y[k] = beyond[CentroidY] - row[CentroidY];
+      offset.x[k] = beyond[CentroidX] - row[CentroidX];
+      offset.y[k] = beyond[CentroidY] - row[CentroidY];
       density[k] = beyond[MovedDensity];
     }
-    Directions const directions = invert(x, y);
+    constexpr int all_neighbours = 15 * NeighbourBit;
+    offset.at_boundary = packOf(
+        [&](int lane) { return (stage.flags[cells.cell[lane]] & all_neighbours) == all_neighbours ? 0.0 : 1.0; });
+    Directions const directions = invert(offset.x, offset.y);
 
     // Density first: it gives the mass fluxes that weigh the primitives.
     Pack const rho = row[MovedDensity];
     Pack const per_volume = 1.0 / out.staying;
     Pack deviation[4] = {}, mass[4], flux[4][pack_width];
-    Pack const part = limit(differentiate(directions, rho, density), out, out.volume, per_volume, deviation);
+    Pack const part =
+        limit(differentiate(directions, rho, density), offset, density, out, out.volume, per_volume, deviation);
     Pack staying_mass = out.moved_volume * rho;
     for (int k = 0; k < 4; ++k)
     {
@@ -207,8 +247,8 @@ struct SweptFluxFunctor
         }
         bool const by_volume = field >= DeviatorXX;
         Pack const beyond[4] = {p[0][i], p[1][i], p[2][i], p[3][i]};
-        Pack const a = limit(differentiate(directions, q[i], beyond), out, by_volume ? out.volume : mass,
-                             by_volume ? per_volume : per_mass, deviation);
+        Pack const a = limit(differentiate(directions, q[i], beyond), offset, beyond, out,
+                             by_volume ? out.volume : mass, by_volume ? per_volume : per_mass, deviation);
         for (int k = 0; k < 4; ++k)
           if (out.leaves[k])
             flux[k][i] = (by_volume ? out.volume[k] : mass[k]) * (q[i] + a * deviation[k]);

@@ -56,25 +56,30 @@ struct SweptGatherFunctor
     double volume = geometry[MovedVolume];
     e.moved_volume[lane] = volume;
     bool flows = false;
+    int const flags = stage.flags[cell];
+    bool const swept = (flags & all_swept_corners) != 0;
     for (int k = 0; k < 4; ++k)
     {
-      double const swept = geometry[SweptVolume + k];
       e.outflow[k][lane] = 0.0;
-      if (swept == 0.0)
+      if (!swept || (flags & SameBeyondBit << k) == 0)
         continue;
-      flows = true;
-      volume -= swept;
-      if (swept > 0.0)
+      int const face = stage.face_neighbour(cell, k);
+      double const leaves = geometry[SweptVolume + k];
+      double const enters = stage.cellRow(face >> 2)[SweptVolume + (face & 3)];
+      if (leaves > 0.0)
       {
+        flows = true;
         double const *flux = stage.fluxRow(cell, k);
+        volume -= leaves;
         e.outflow[k][lane] = flux[DensityField];
         change -= FieldPack(flux);
       }
-      else
+      if (enters > 0.0)
       {
-        int const face = stage.face_neighbour(cell, k);
+        flows = true;
         double const *flux = stage.fluxRow(face >> 2, face & 3);
-        e.outflow[k][lane] = -flux[DensityField];
+        volume += enters;
+        e.outflow[k][lane] -= flux[DensityField];
         change += FieldPack(flux);
       }
     }

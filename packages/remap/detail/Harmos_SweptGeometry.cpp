@@ -33,14 +33,53 @@ KOKKOS_FORCEINLINE_FUNCTION Pack cross(PackedVector const &a, PackedVector const
   return a.x * b.y - a.y * b.x;
 }
 
-/// Part of an edge a -> b at which the centroid of the area that it sweeps lies, ends moved by u_a, u_b.
-KOKKOS_FORCEINLINE_FUNCTION Pack sweptCentre(PackedVector const &edge, PackedVector const &u_a, PackedVector const &u_b)
+/// What an edge a -> b, ends moved by u_a and u_b, sweeps out of the cell on its left.
+struct Swept
 {
-  Pack const depth_a = cross(u_a, edge);
-  Pack const depth_b = cross(u_b, edge);
-  Pack const sum = depth_a + depth_b;
-  auto const one_sided = both(no(depth_a * depth_b < Pack(0.0)), no(sum == Pack(0.0)));
-  return select(one_sided, Pack((depth_a + 2.0 * depth_b) / select(one_sided, Pack(3.0 * sum), Pack(1.0))), Pack(0.5));
+  Pack volume;         // >= 0
+  PackedVector centre; // from a at mid-step; zero where nothing leaves
+};
+
+/// With E the edge at mid-step, d_a = u_a x E, d_b = u_b x E: the signed area between the edge before and after has
+/// V = (d_a + d_b) / 2 and the first moment E (d_a + 2 d_b) / 6 + (u_a x u_b) (u_a + u_b) / 24 about a, both exactly.
+KOKKOS_FORCEINLINE_FUNCTION Swept sweptWhole(PackedVector const &edge, PackedVector const &u_a, PackedVector const &u_b,
+                                             Pack const &d_a, Pack const &d_b)
+{
+  Pack const volume = 0.5 * (d_a + d_b);
+  // What is no more than round-off has no centroid.
+  auto const leaves = volume > 1e-14 * Math::fabs(d_a - d_b);
+  Pack const per_volume = select(leaves, Pack(1.0), Pack(0.0)) / select(leaves, volume, Pack(1.0));
+  Pack const along = (d_a + 2.0 * d_b) * (per_volume * (1.0 / 6.0));
+  Pack const across = cross(u_a, u_b) * (per_volume * (1.0 / 24.0));
+  return {select(leaves, volume, Pack(0.0)), along * edge + across * (u_a + u_b)};
+}
+
+/// Where the edges before and after cross, in a point p, one of the triangles between them leaves the cell and the
+/// other enters it: each has its own donor. At mid-step the crossing is the part alpha = d_a / (d_a - d_b) along the
+/// edge; before and after it is half of delta = -w.E / E.E apart, w the motion there:
+/// p = alpha E + delta (u_b - u_a) / 4, V_a = (alpha^2 - delta^2/4) (d_a - d_b) / 2, V_b likewise with 1 - alpha.
+KOKKOS_FORCEINLINE_FUNCTION void splitWhereEdgesCross(PackedVector const &edge, PackedVector const &u_a,
+                                                      PackedVector const &u_b, Pack const &d_a, Pack const &d_b,
+                                                      Swept &swept)
+{
+  auto const opposite = d_a * d_b < Pack(0.0);
+  if (!any(opposite))
+    return;
+  Pack const difference = select(opposite, Pack(d_a - d_b), Pack(1.0));
+  Pack const alpha = d_a / difference, beta = -d_b / difference;
+  PackedVector const w = beta * u_a + alpha * u_b;
+  Pack const length2 = edge.x * edge.x + edge.y * edge.y;
+  Pack const delta = -(w.x * edge.x + w.y * edge.y) / select(opposite, length2, Pack(1.0));
+  Pack const q = 0.25 * delta * delta;
+  Pack const part_a = alpha * alpha - q, part_b = beta * beta - q;
+  auto const crosses = both(both(opposite, part_a > Pack(0.0)), part_b > Pack(0.0));
+  PackedVector const p = alpha * edge + Pack(0.25 * delta) * (u_b - u_a);
+  auto const at_a = d_a > Pack(0.0);
+  Pack const volume = 0.5 * Math::fabs(difference) * select(at_a, part_a, part_b);
+  Pack const third = 1.0 / 3.0, end = select(at_a, Pack(0.0), Pack(2.0));
+  PackedVector const centre = third * (p + end * edge);
+  swept.volume = select(crosses, volume, swept.volume);
+  swept.centre = {select(crosses, centre.x, swept.centre.x), select(crosses, centre.y, swept.centre.y)};
 }
 
 struct SweptGeometryFunctor
@@ -97,7 +136,11 @@ struct SweptGeometryFunctor
       PackedVector const u{stage.dt * packOf([&](int lane) { return stage.half(dof[lane], 0); }),
                            stage.dt * packOf([&](int lane) { return stage.half(dof[lane], 1); })};
       moved[k] = x + u;
-      back[k] = bitOf(flags, common, SweptCornerBit << k) * u;
+      PackedVector homeward = u;
+      if (stage.retargeted)
+        homeward = u + (x - PackedVector{packOf([&](int lane) { return stage.target(node[lane], 0); }),
+                                         packOf([&](int lane) { return stage.target(node[lane], 1); })});
+      back[k] = bitOf(flags, common, SweptCornerBit << k) * homeward;
       middle[k] = moved[k] - Pack(0.5) * back[k];
     }
     PackedVector const d1 = moved[1] - moved[0];
@@ -120,8 +163,11 @@ struct SweptGeometryFunctor
     {
       int const next = (k + 1) % 4;
       PackedVector const edge = middle[next] - middle[k];
-      row[SweptVolume + k] = bitOf(flags, common, NeighbourBit << k) * (0.5 * cross(back[k] + back[next], edge));
-      PackedVector const c = (middle[k] - centroid) + sweptCentre(edge, back[k], back[next]) * edge;
+      Pack const d_a = cross(back[k], edge), d_b = cross(back[next], edge);
+      Swept swept = sweptWhole(edge, back[k], back[next], d_a, d_b);
+      splitWhereEdgesCross(edge, back[k], back[next], d_a, d_b, swept);
+      row[SweptVolume + k] = bitOf(flags, common, NeighbourBit << k) * swept.volume;
+      PackedVector const c = (middle[k] - centroid) + swept.centre;
       centre[2 * k] = c.x;
       centre[2 * k + 1] = c.y;
     }

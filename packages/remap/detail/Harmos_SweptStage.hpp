@@ -26,7 +26,7 @@ enum SweptCell : int
   CentroidX = 1,
   CentroidY = 2,
   MovedDensity = 3,
-  SweptVolume = 4 // of the faces 0..3, positive out of the cell
+  SweptVolume = 4 // what the faces 0..3 sweep out of the cell, >= 0: the neighbour's is what they sweep into it
 };
 
 /// What the kernels of stage 1 hand to one another. Cells share rows: cell c uses row c & mask, for as long as it is
@@ -65,9 +65,12 @@ struct SweptStage
 
   double dt;
   bool second_order;
+  RemapLimiter limiter;
 
   RowPointer<int, 4> cell_node, face_neighbour;
-  RowPointer<double, 2> position;
+  RowPointer<double, 2> position; // at the start of the motion
+  RowPointer<double, 2> target;   // of the mesh
+  bool retargeted;                // these are not the same
   int const *cell_depth, *node_owned;
   int const *first_item, *item; // mesh.node_cell
   int const *node_condition;
@@ -109,15 +112,18 @@ struct SweptSums
 
 /// Moved volume, centroid and density of the pure cells, and the volumes that their faces sweep on the way back.
 ///
-/// Only swept nodes go back, by u = dt v; face k with ends a, b sweeps (u_a + u_b)/2 x E out of the cell, E the edge
-/// at mid-step: both cells see the same number with opposite signs, and the four add up to the change of area exactly.
+/// Only swept nodes go back, by u = dt v (to another mesh: x + dt v - y); face k with ends a, b sweeps (u_a + u_b)/2 x
+/// E out of the cell, E the edge at mid-step: the four add up to the change of area exactly. Where the edges before and
+/// after cross, one triangle goes out and another comes in. First moments are exact too: so is the remap of linear
+/// fields.
 void sweptGeometry(SweptStage const &stage, int begin, int end);
 
 /// Fluxes of the faces through which cells lose material: a limited linear polynomial per cell at the swept centroids.
 /// Density and deviator are weighted by volume; the primitives by mass, with the face's mass flux.
 ///
 /// One scalar limiter a field and cell keeps the values at all outgoing faces, and the mean of what stays in the cell,
-/// within the range of the cell and its face neighbours: so the new values are means of values within range.
+/// within the range of the cell and its face neighbours: so the new values are means of values within range
+/// (RemapLimiter::Range; the others bound what their names say).
 void sweptFluxes(SweptStage const &stage, int begin, int end);
 
 /// Records after stage 1, and the momentum that corners gain from the others of their cell by dual mass fluxes.

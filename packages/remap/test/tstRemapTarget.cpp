@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RemapScene.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+using namespace Harmos::Test;
+
+namespace
+{
+
+double wave(int material, Vector2 const &x)
+{
+  return 1.0 + material + 0.4 * std::sin(7.0 * x[0]) * std::cos(5.0 * x[1]);
+}
+
+Vector2 slip(int material, Vector2 const &x)
+{
+  double const s = std::sin(Math::pi * x[0]) * std::sin(Math::pi * x[1]);
+  return s * Vector2{0.007 + 0.003 * material, 0.005 * std::cos(3.0 * x[1]) - 0.003 * material};
+}
+
+std::vector<std::vector<Layer>> const layouts = {
+    {rest(0)}, {disc(0, {0.45, 0.5}, 0.3)}, {disc(0, {0.45, 0.5}, 0.27), halfPlane(2, {0.5, 0.5}, 0.3), rest(1)}};
+
+/// In [-1, 1), by the node's global number: the same on any number of ranks.
+double noise(long long global, int d)
+{
+  std::mt19937 random(static_cast<unsigned>(2 * global + d));
+  return std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+}
+
+/// The scene's mesh with inner nodes shifted at random, and those of walls along them.
+Mesh shiftedMesh(Scene const &scene, double amount)
+{
+  Mesh target = scene.mesh;
+  target.node_position = View<double *[2]>("target", scene.mesh.num_nodes);
+  target.cell_area = View<double *>("targetArea", scene.mesh.num_cells);
+  for (int node = 0; node < scene.mesh.num_nodes; ++node)
+    for (int d = 0; d < 2; ++d)
+    {
+      double const x = scene.mesh.node_position(node, d);
+      bool const wall = x == 0.0 || x == 1.0;
+      target.node_position(node, d) = wall ? x : x + amount * noise(scene.mesh.node_global(node), d);
+    }
+  updateGeometry(target);
+  return target;
+}
+
+RemapResult remapTo(Scene &scene, Mesh const &target, RemapWork &work)
+{
+  scene.report = RemapReport{};
+  return remap(target, scene.kinematics, scene.pairs, scene.dof_nodes, scene.state, scene.regions, scene.conditions,
+               scene.materials, scene.half, scene.dt, scene.rigid, scene.options, scene.report, work,
+               scene.mesh.node_position);
+}
+
+RemapResult remapTo(Scene &scene, Mesh const &target)
+{
+  RemapWork work;
+  return remapTo(scene, target, work);
+}
+
+Scene makeScene(std::vector<Layer> const &layers, bool intersect)
+{
+  Scene scene(24, 20, 0.15, twoLaws());
+  scene.options.swept_faces = !intersect;
+  if (intersect)
+    scene.options.order = 3;
+  scene.options.merge_below = 0.0;
+  scene.paint(layers, wave, wave);
+  scene.move(slip);
+  return scene;
+}
+
+/// Owned cells hold the same records and velocities.
+long long differences(Scene const &part, RemapResult const &a, RemapResult const &b)
+{
+  long long count = 0;
+  for (int cell = 0; cell < part.mesh.num_cells; ++cell)
+  {
+    if (part.mesh.cell_depth(cell) != 0)
+      continue;
+    int const global = static_cast<int>(part.mesh.cell_global(cell));
+    int const pairs = a.pairs.offset(cell + 1) - a.pairs.offset(cell);
+    if (pairs != b.pairs.offset(global + 1) - b.pairs.offset(global))
+    {
+      ++count;
+      continue;
+    }
+    for (int i = 0; i < pairs; ++i)
+    {
+      int const pa = a.pairs.offset(cell) + i, pb = b.pairs.offset(global) + i;
+      for (int f = 0; f < num_pair_fields; ++f)
+        count += a.state.record(pa, f) != b.state.record(pb, f);
+      for (int k = 0; k < 4; ++k)
+        for (int d = 0; d < 2; ++d)
+          count += a.state.velocity(a.pairs.dof_node(pa, k), d) != b.state.velocity(b.pairs.dof_node(pb, k), d);
+    }
+  }
+  return count;
+}
+
+} // namespace
+
+TEST(Target, thatIsTheStartMesh_givesTheBitsOfThePlainRemap)
+{
+  for (auto const &layers : layouts)
+    for (bool intersect : {false, true})
+    {
+      Scene scene = makeScene(layers, intersect);
+      RemapResult const plain = scene.remapped();
+      EXPECT_EQ(differences(scene, remapTo(scene, shiftedMesh(scene, 0.0)), plain), 0);
+    }
+}
+
+TEST(Target, ofRandomNodes_keepsMassMomentumAndEnergyOfEveryMaterial)
+{
+  for (auto const &layers : layouts)
+    for (bool intersect : {false, true})
+    {
+      Scene scene = makeScene(layers, intersect);
+      Mesh const target = shiftedMesh(scene, 0.009);
+      RemapResult const result = remapTo(scene, target);
+      EXPECT_EQ(scene.report.failures, 0);
+      for (int material : {0, 1, 2})
+      {
+        Totals const a = totals(scene.mesh, scene.pairs, scene.state.record, scene.half, material);
+        Totals const b = totals(target, result.pairs, result.state.record, result.state.velocity, material);
+        EXPECT_NEAR(b.mass, a.mass, 1e-14 * (1.0 + a.mass));
+        EXPECT_NEAR(b.internal, a.internal, 1e-14 * (1.0 + a.internal));
+        EXPECT_NEAR(b.thermodynamic_volume, a.thermodynamic_volume, 1e-14);
+        EXPECT_NEAR(b.plastic, a.plastic, 1e-15);
+      }
+      Totals const a = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
+      Totals const b = totals(target, result.pairs, result.state.record, result.state.velocity);
+      for (int d = 0; d < 2; ++d)
+        EXPECT_NEAR(b.momentum[d], a.momentum[d] + scene.report.wall_impulse[d], 1e-15);
+    }
+}
+
+TEST(Target, thatMovesWithTheMaterial_leavesTheCellsAsTheyAre)
+{
+  for (auto const &layers : layouts)
+    for (bool intersect : {false, true})
+    {
+      Scene scene = makeScene(layers, intersect);
+      scene.move([](int, Vector2 const &x) { return slip(0, x); });
+      Mesh target = shiftedMesh(scene, 0.0);
+      for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+        for (int d = 0; d < 2; ++d)
+          target.node_position(scene.dof_nodes.node(dof), d) =
+              scene.mesh.node_position(scene.dof_nodes.node(dof), d) + scene.dt * scene.half(dof, d);
+      updateGeometry(target);
+      RemapResult const result = remapTo(scene, target);
+      EXPECT_EQ(scene.report.failures, 0);
+      ASSERT_EQ(result.pairs.num_pairs, scene.pairs.num_pairs);
+      for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+      {
+        ASSERT_EQ(result.pairs.material(pair), scene.pairs.material(pair));
+        for (int f = 0; f < num_pair_fields; ++f)
+        {
+          double const tolerance = f == VolumeFraction ? 2e-2 : 1e-12; // a part of a bent cell changes its share
+          EXPECT_NEAR(result.state.record(pair, f), scene.state.record(pair, f), tolerance);
+        }
+        for (int k = 0; k < 4; ++k)
+          for (int d = 0; d < 2; ++d)
+            EXPECT_NEAR(result.state.velocity(result.pairs.dof_node(pair, k), d),
+                        scene.half(scene.pairs.dof_node(pair, k), d), 1e-13);
+      }
+    }
+}
+
+TEST(Target, ofRandomNodes_uniformStateStaysUniformAndFillsTheCells)
+{
+  for (bool intersect : {false, true})
+  {
+    Scene scene = makeScene({disc(0, {0.45, 0.5}, 0.3), rest(1)}, intersect);
+    auto const one = [](int, Vector2 const &) { return 1.0; };
+    scene.paint({disc(0, {0.45, 0.5}, 0.3), rest(1)}, one, one);
+    scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
+    Mesh const target = shiftedMesh(scene, 0.009);
+    RemapResult const result = remapTo(scene, target);
+    for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    {
+      double const volume = result.state.record(pair, VolumeFraction) * target.cell_area(result.pairs.cell(pair));
+      EXPECT_NEAR(result.state.record(pair, Mass), volume, 1e-15);
+      EXPECT_NEAR(result.state.record(pair, InternalEnergy), 1.0, 1e-13);
+    }
+    EXPECT_NEAR(largestSumOfFractions(target, result), 1.0, 1e-15);
+  }
+}
+
+TEST(Target, keptWork_servesMovingMeshesAndTheStartMeshInTurn)
+{
+  Scene scene = makeScene(layouts[2], false);
+  Mesh const target = shiftedMesh(scene, 0.009);
+  RemapWork work;
+  RemapReport report;
+  for (int i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(differences(scene, remapTo(scene, target, work), remapTo(scene, target)), 0);
+    RemapResult const home =
+        remap(scene.mesh, scene.kinematics, scene.pairs, scene.dof_nodes, scene.state, scene.regions, scene.conditions,
+              scene.materials, scene.half, scene.dt, scene.rigid, scene.options, report, work);
+    EXPECT_EQ(differences(scene, home, scene.remapped()), 0);
+  }
+}
+
+TEST(Target, withANodeOffItsWall_isRefused)
+{
+  Scene scene = makeScene(layouts[0], false);
+  Mesh const target = shiftedMesh(scene, 0.0);
+  target.node_position(3, 1) = 0.01;
+  EXPECT_THROW(remapTo(scene, target), std::runtime_error);
+  Scene open = makeScene(layouts[0], false);
+  Boundary outflow;
+  outflow.kind = BoundaryKind::Outflow;
+  open.setBoundaries(std::vector<Boundary>(4, outflow));
+  Mesh const sliding = shiftedMesh(open, 0.0);
+  sliding.node_position(3, 0) += 0.001;
+  EXPECT_THROW(remapTo(open, sliding), std::runtime_error);
+}
+
+TEST(Target, onPartOfTheMesh_givesTheBitsOfTheWhole)
+{
+  for (auto const &layers : layouts)
+  {
+    Scene whole = makeScene(layers, false);
+    RemapResult const all = remapTo(whole, shiftedMesh(whole, 0.009));
+    std::vector<int> owner(24 * 20);
+    for (int cell = 0; cell < 24 * 20; ++cell)
+      owner[cell] = cell % 24 < 11 + (cell / 24) % 3 ? 0 : 1;
+    Scene part(24, 20, 0.15, twoLaws());
+    part.options.merge_below = 0.0;
+    part.distribute(owner, 5);
+    part.paint(layers, wave, wave);
+    part.move(slip);
+    EXPECT_EQ(differences(part, remapTo(part, shiftedMesh(part, 0.009)), all), 0);
+  }
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_MeshBuilder.hpp>
+#include <Harmos_Paint.hpp>
+#include <Harmos_TimeStep.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+using namespace Harmos;
+
+namespace
+{
+
+template <class T>
+View<T *> onDevice(std::string const &label, std::vector<T> const &values)
+{
+  View<T *> const view(label, values.size());
+  auto const host = Kokkos::create_mirror_view(view);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    host(i) = values[i];
+  Kokkos::deep_copy(view, host);
+  return view;
+}
+
+Material metal(double density)
+{
+  Material m;
+  m.eos = EosKind::MieGruneisen;
+  m.strength = StrengthKind::Plastic;
+  m.density0 = density;
+  m.sound_speed0 = 4000.0;
+  m.slope = 1.4;
+  m.gruneisen = 2.0;
+  m.shear_modulus = 30e9;
+  m.yield = 0.2e9;
+  return m;
+}
+
+/// A disc that hits a block, in the unit square between slip walls; cells of h = 1/40.
+struct Impact
+{
+  Exchange alone;
+  Scene scene;
+  CycleState state;
+  PhaseTimes times;
+  double work = 0.0, loss = 0.0;
+  Vector2 impulse = {0.0, 0.0};
+  long long failures = 0;
+
+  Impact()
+  {
+    std::vector<double> const lines = gradedCoordinates(0.0, 1.0, 40, 1.0);
+    scene.mesh = buildMesh(rectilinearMesh(lines, lines));
+    scene.boundary = buildBoundaryConditions(scene.mesh, onDevice("boundary", std::vector<Boundary>(4)));
+    scene.materials = onDevice("materials", std::vector<Material>{metal(8930.0), metal(2700.0)});
+    scene.constraint.interaction = View<int **>("interaction", 2, 2);
+    scene.exchange = &alone;
+    Body disc, block;
+    disc.shape = Shape::disc({0.33, 0.52}, 0.15);
+    disc.velocity = {300.0, 30.0};
+    disc.density = 8930.0;
+    block.shape = Shape::rectangle({0.65, 0.5}, {0.31, 0.53});
+    block.material = 1;
+    block.density = 2700.0;
+    disc.specific_volume = 1.0 / disc.density;
+    block.specific_volume = 1.0 / block.density;
+    Painting const painting = paint(scene.mesh, {disc, block});
+    state.pairs = painting.pairs;
+    state.state.record = painting.record;
+    state.state.centroid = painting.centroid;
+    state.dof_nodes = buildDofNodes(scene.mesh, scene.kinematics, state.state.record, state.pairs);
+    state.state.velocity = paintedVelocity(scene.mesh, {disc, block}, painting, state.dof_nodes);
+    ReconstructionReport report;
+    reconstructState(scene, state, report);
+    prepareWork(state.pairs, state.dof_nodes, state.work);
+    computeNodeAltitudes(scene.mesh, state.work);
+    computeDofMass(scene.mesh, state.pairs, state.dof_nodes, state.state, scene.materials, state.work);
+    state.limit = stableTimeStep(scene.mesh, state.pairs, state.state, scene.materials, scene.lagrange, state.work);
+    state.dt = state.limit.dt;
+    Tracer tracer;
+    tracer.position = {0.33, 0.52};
+    tracer.material = 0;
+    tracer.cell = locatePoints(scene.mesh, {tracer.position}, alone)[0];
+    state.tracers.push_back(tracer);
+  }
+
+  /// Cycles up to a time.
+  void run(double end)
+  {
+    while (state.time < end && failures == 0)
+    {
+      CycleReport const report = advance(scene, state, times);
+      work += report.external_work;
+      loss += report.constraint.contact_loss + report.remap.kinetic_loss;
+      impulse += report.external_impulse;
+      failures += report.remap.failures + report.reconstruction.failures + report.update.inverted;
+    }
+  }
+
+  MaterialSums sums() const
+  {
+    return materialSums(scene.mesh, state.pairs, state.state.record, state.state.velocity, 2);
+  }
+};
+
+/// Nodes swing about their places by a third of a cell, those of walls along them.
+TargetMesh swing(View<double *[2]> const &reference)
+{
+  return [reference](Mesh const &, CycleState const &s, double dt, View<double *[2]> const &target)
+  {
+    double const phase = std::sin(2.0 * Math::pi * (s.time + dt) / 4e-5);
+    double const a = 0.008 * phase;
+    Kokkos::parallel_for(
+        "swing", RangePolicy(0, static_cast<int>(target.extent(0))), KOKKOS_LAMBDA(int node) {
+          double const x = reference(node, 0), y = reference(node, 1);
+          target(node, 0) = x + a * Math::sin(3.0 * Math::pi * x) * Math::cos(2.0 * Math::pi * y);
+          target(node, 1) = y + a * Math::cos(2.0 * Math::pi * x) * Math::sin(3.0 * Math::pi * y);
+        });
+  };
+}
+
+} // namespace
+
+TEST(TargetMesh, thatStays_givesTheBitsOfTheEulerianCycle)
+{
+  Impact plain, held;
+  held.scene.target_mesh = [](Mesh const &, CycleState const &, double, View<double *[2]> const &) {};
+  plain.scene.max_dt = held.scene.max_dt = plain.state.dt = held.state.dt = 0.3 * plain.state.dt;
+  for (int cycle = 0; cycle < 20; ++cycle)
+  {
+    advance(plain.scene, plain.state, plain.times);
+    advance(held.scene, held.state, held.times);
+  }
+  ASSERT_EQ(plain.state.pairs.num_pairs, held.state.pairs.num_pairs);
+  for (int pair = 0; pair < plain.state.pairs.num_pairs; ++pair)
+    for (int f = 0; f < num_pair_fields; ++f)
+      ASSERT_EQ(plain.state.state.record(pair, f), held.state.state.record(pair, f));
+}
+
+TEST(TargetMesh, thatSwings_keepsMassMomentumAndEnergyAndTheMotion)
+{
+  Impact still, moving;
+  MaterialSums const before = moving.sums();
+  moving.scene.target_mesh = swing(moving.scene.mesh.node_position);
+  still.run(2e-4);
+  moving.run(2e-4);
+  ASSERT_EQ(moving.failures, 0);
+  MaterialSums const after = moving.sums(), eulerian = still.sums();
+  double momentum[2] = {0.0, 0.0}, energy = 0.0, start = 0.0;
+  for (int m = 0; m < 2; ++m)
+  {
+    EXPECT_NEAR(after(m, SumMass) / before(m, SumMass), 1.0, 1e-13);
+    momentum[0] += after(m, SumMomentumX) - before(m, SumMomentumX);
+    momentum[1] += after(m, SumMomentumY) - before(m, SumMomentumY);
+    energy += after(m, SumKineticEnergy) + after(m, SumInternalEnergy);
+    start += before(m, SumKineticEnergy) + before(m, SumInternalEnergy);
+    // what the disc gives to the block, on either mesh
+    EXPECT_NEAR(after(m, SumMomentumX), eulerian(m, SumMomentumX), 0.01 * before(0, SumMomentumX));
+  }
+  EXPECT_LT(eulerian(1, SumMomentumX) / before(0, SumMomentumX), 1.0);
+  EXPECT_GT(eulerian(1, SumMomentumX) / before(0, SumMomentumX), 0.1);
+  EXPECT_NEAR(momentum[0], moving.impulse[0], 1e-12 * before(0, SumMomentumX));
+  EXPECT_NEAR(momentum[1], moving.impulse[1], 1e-12 * before(0, SumMomentumX));
+  EXPECT_NEAR(energy + moving.loss - moving.work, start, 1e-3 * start);
+  for (int d = 0; d < 2; ++d)
+    EXPECT_NEAR(moving.state.tracers[0].position[d], still.state.tracers[0].position[d], 1e-3);
+  EXPECT_EQ(locatePoints(moving.scene.mesh, {moving.state.tracers[0].position}, moving.alone)[0],
+            moving.state.tracers[0].cell);
+}
+
+TEST(TargetMesh, thatCannotBe_isRefused)
+{
+  Impact folded;
+  folded.scene.target_mesh = [](Mesh const &, CycleState const &, double, View<double *[2]> const &target)
+  { target(41 * 20 + 20, 0) += 0.04; };
+  EXPECT_THROW(folded.run(1e-6), std::runtime_error);
+  Impact lagrangian;
+  lagrangian.scene.target_mesh = swing(lagrangian.scene.mesh.node_position);
+  lagrangian.scene.kinematics = Kinematics::Lagrangian;
+  EXPECT_THROW(lagrangian.run(1e-6), std::runtime_error);
+  Impact prescribed;
+  prescribed.scene.target_mesh = swing(prescribed.scene.mesh.node_position);
+  prescribed.scene.prescribed.kind = FieldKind::Rotation;
+  EXPECT_THROW(prescribed.run(1e-6), std::runtime_error);
+}

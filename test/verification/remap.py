@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The remap alone (`harmos remap`): cyclic and random meshes, against a peer program's figures and the comparators.
+
+Peer: Portage on the same meshes, fields and steps (Barth & Jespersen's limiter, intersection).
+"""
+import subprocess
+import tempfile
+
+from harness import EXAMPLE, HARMOS, check, read_columns, run
+
+
+def remap(deck="deck.yaml", ranks=1, expect=0, **settings):
+    """Columns of remap.csv; settings are keys of the deck."""
+    directory = tempfile.mkdtemp(prefix="harmos-")
+    command = [HARMOS, "remap", str(EXAMPLE / "remap" / deck), "--output", directory, "--force"]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={value}"]
+    if ranks > 1:
+        command = ["mpiexec", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] + command
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != expect:
+        raise AssertionError(f"exit status {done.returncode}, expected {expect}:\n{done.stdout[-2000:]}")
+    return read_columns(directory + "/remap.csv") if expect == 0 else done.stdout
+
+
+def conserves_within_range(what, r):
+    check(f"{what}: conservation", max(abs(c) for c in r["conservation"]), 1e-13)
+    check(f"{what}: beyond the initial range", max(r["below"] + r["above"]), 1e-12)
+
+
+def test_cyclic_remapping_beats_the_peer_limited_and_stays_in_range():
+    # motion, field: the peer's L1 at 32, limited
+    for motion, field, peer in [("tensor", "sine", 2.08e-2), ("smooth", "sine", 6.71e-3), ("tensor", "shock", 4.00e-2), ("smooth", "shock", 1.19e-2)]:
+        for scheme in ["swept", "intersection"]:
+            r = remap(motion=motion, field=field, scheme=scheme, cells="[32.0]")
+            check(f"{motion}, {field}, {scheme}: L1", r["L1"][0], peer)
+            conserves_within_range(f"{motion}, {field}, {scheme}", r)
+
+
+def test_cyclic_remapping_without_limiter():
+    for motion, peer in [("tensor", 1.27e-2), ("smooth", 2.60e-3)]:
+        for scheme in ["swept", "intersection"]:
+            r = remap(motion=motion, scheme=scheme, limiter="none", cells="[32.0]")
+            check(f"{motion}, sine, {scheme}: L1", r["L1"][0], 1.1 * peer)
+
+
+def test_random_meshes_orders_of_accuracy():
+    r = remap("random.yaml", cells="[32.0, 64.0, 128.0]")
+    # limited in the boundary's cells as well, which the peer leaves alone (2.19e-4, 4.39e-5, 1.03e-5)
+    for error, bound in zip(r["L1"], [8.5e-4, 2.3e-4, 6.5e-5]):
+        check("L1, second order limited", error, bound)
+    conserves_within_range("random", r)
+    r = remap("random.yaml", limiter="range inside", cells="[32.0, 64.0, 128.0]")
+    for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
+        check("L1, second order, limited but at the boundary", error, 1.1 * peer)
+    r = remap("random.yaml", order=1, cells="[32.0, 64.0]")
+    for error, peer in zip(r["L1"], [3.74e-3, 1.66e-3]):
+        check("L1, first order", error, 1.1 * peer)  # other random numbers
+
+
+def test_any_number_of_ranks_gives_the_same_errors():
+    one, two = (remap(cells="[32.0]", scheme="intersection", ranks=n) for n in (1, 2))
+    for column in ["L1", "L2"]:
+        check(f"{column} on two ranks", abs(two[column][0] / one[column][0] - 1.0), 1e-12)
+    for column in ["Linf", "below", "above"]:
+        check(f"{column} on two ranks", abs(two[column][0] - one[column][0]), 0.0)
+
+
+def test_interpolation_loses_conservation():
+    r = remap(scheme="interpolation", field="shock", motion="smooth", cells="[32.0]")
+    print(f"  relative change of the sum: {r['conservation'][0]:.2e}")
+    assert abs(r["conservation"][0]) > 1e-4
+
+
+def test_consistent_projection_leaves_the_range_and_lumped_smears():
+    r = remap(scheme="consistent projection", field="shock", motion="smooth", cells="[32.0]")
+    print(f"  below {r['below'][0]:.2e}, above {r['above'][0]:.2e}")
+    check("conservation", abs(r["conservation"][0]), 1e-12)
+    assert min(r["below"][0], r["above"][0]) > 1e-2
+    lumped = remap(scheme="lumped projection", order=1, field="shock", motion="smooth", cells="[32.0]")
+    check("lumped: conservation", abs(lumped["conservation"][0]), 1e-12)
+    # as far as three points a triangle integrate N_i
+    check("lumped, constant donors: beyond the range", max(lumped["below"] + lumped["above"]), 1e-4)
+    assert lumped["L1"][0] > 2.0 * r["L1"][0]
+
+
+def test_what_makes_no_sense_is_refused():
+    assert "expected" in remap(scheme="interpolation", ranks=2, cells="[8.0]", expect=2)
+    assert "positive" in remap(carrier="density", expect=2)
+    assert "ascending" in remap(cells="[32.0, 16.0]", expect=2)
+    assert "expected" in remap(scheme="interpolation", limiter="none", expect=2)
+    assert "intersection" in remap(order=3, expect=2)
+    assert "unknown" in remap(limitor="none", expect=2).lower()
+
+
+run(globals())
