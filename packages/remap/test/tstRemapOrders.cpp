@@ -116,7 +116,9 @@ TEST(RandomMesh, randomDensityAndPrimitives_stayWithinTheirRange)
   for (int order : {1, 2, 3})
     for (bool swept : {false, true})
       if (order < 3 || !swept)
+      {
         EXPECT_LE(overshoot(optionsOf(order, swept, RemapLimiter::Range)), 1e-12) << order << swept;
+      }
 }
 
 TEST(RandomMesh, otherLimiters_overshoot)
@@ -155,7 +157,9 @@ TEST(ThirdOrder, quadraticDensity_isRemappedExactlyFromARandomMesh)
     Quadrilateral const q = cellQuadrilateral(scene.mesh, cell);
     double const rim = 1.5 / n; // cells at the boundary lack the neighbours that a fit needs
     if (q[0][0] > rim && q[0][1] > rim && q[2][0] < 1.0 - rim && q[2][1] < 1.0 - rim)
+    {
       EXPECT_NEAR(result.state.record(cell, Mass), gaussAverage(q, quadratic) * area(q), 1e-14) << "cell " << cell;
+    }
   }
 }
 
