@@ -38,6 +38,7 @@ struct Ledger
   double light_nodes = 0.0;
   double repeats = 0.0;
   double merged = 0.0;
+  double out_of_range = 0.0;          // pair steps outside of the equation of state's range
   double unfinished_interfaces = 0.0; // mixed cells, summed over cycles, whose line's angle met its bound of iterations
   double restored_volume = 0.0;       // prescribed field: sum of |volume given back| [m^2]
 

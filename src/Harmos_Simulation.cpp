@@ -30,16 +30,17 @@ void warn(Run &run, std::string const &text)
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
-  double sums[9] = {remap.kinetic_loss,
-                    remap.overlap_volume,
-                    remap.void_volume,
-                    remap.outflow_mass,
-                    remap.outflow_momentum[0],
-                    remap.outflow_momentum[1],
-                    remap.outflow_energy,
-                    static_cast<double>(remap.merged),
-                    static_cast<double>(report.reconstruction.unfinished_cells)};
-  exchange.sum(sums, 9);
+  double sums[10] = {remap.kinetic_loss,
+                     remap.overlap_volume,
+                     remap.void_volume,
+                     remap.outflow_mass,
+                     remap.outflow_momentum[0],
+                     remap.outflow_momentum[1],
+                     remap.outflow_energy,
+                     static_cast<double>(remap.merged),
+                     static_cast<double>(report.reconstruction.unfinished_cells),
+                     static_cast<double>(report.update.out_of_range)};
+  exchange.sum(sums, 10);
   l.external_work += report.external_work;
   l.contact_loss += report.constraint.contact_loss;
   l.external_impulse_x += report.external_impulse[0];
@@ -53,6 +54,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.outflow_energy += sums[6];
   l.merged += sums[7];
   l.unfinished_interfaces += sums[8];
+  l.out_of_range += sums[9];
   l.unconverged_cycles += report.constraint.converged ? 0.0 : 1.0;
   l.light_nodes += static_cast<double>(report.light_nodes);
   l.repeats += report.repeats;
@@ -189,6 +191,20 @@ void reportConvergence(Run &run, CycleReport const &report)
   }
 }
 
+/// A pair that has left the range of its equation of state goes on, by floors; the run says so once for each tenfold
+/// number of such pairs and cycles, with the first place of the cycle.
+void reportRange(Run &run, CycleReport const &report, double before)
+{
+  double const count = run.ledger.out_of_range;
+  if (count == before || std::floor(std::log10(count)) == std::floor(std::log10(std::max(before, 0.5))))
+    return;
+  UpdateReport const &u = report.update;
+  std::string const place =
+      firstCause(*run.comm, u.range_cell >= 0 ? placeOf(run, u.range_cell, u.range_material) : "");
+  warn(run, "cycle " + std::to_string(run.state.cycle) + ": outside of the range of the equation of state: " + place +
+                " (" + std::to_string(std::llround(count)) + " pair steps so far)");
+}
+
 /// One cycle. What a kernel's host code throws is a failed run; on several ranks main ends them all, since the others
 /// may wait for the one that threw.
 CycleReport cycle(Run &run)
@@ -225,9 +241,11 @@ ExitStatus loop(Run &run, RunOutput &output)
   {
     shortenLastStep(run);
     report = cycle(run);
+    double const out_of_range = run.ledger.out_of_range;
     book(run.ledger, report, *run.exchange);
     checkCycle(run, report);
     reportConvergence(run, report);
+    reportRange(run, report, out_of_range);
     run.ledger.cell_steps += cells;
     long long pairs[1] = {run.state.pairs.num_pairs};
     if (run.exchange->size() > 1)

@@ -126,7 +126,7 @@ void assignField(DeckChecker const &check, ParameterList const &list, std::strin
 double densityAtPressure(Material const &law, double internal_energy, double pressure)
 {
   double density = law.density0;
-  for (int i = 0; i < 100 && density > 0.0 && eosInRange(law, 1.0 / density); ++i)
+  for (int i = 0; i < 100 && density > 0.0 && eosInRange(law, 1.0 / density, internal_energy); ++i)
   {
     EosState<double> const state = equationOfState(law, 1.0 / density, internal_energy);
     double const change = (pressure - state.pressure) / state.sound_speed_squared;
@@ -135,6 +135,25 @@ double densityAtPressure(Material const &law, double internal_energy, double pre
       return density;
   }
   return -1.0;
+}
+
+/// Internal energy at which a law has a pressure: Newton with the slope between two energies, one step where p is
+/// linear in e.
+double energyAtPressure(Material law, double specific_volume, double pressure)
+{
+  law.tension_limit = 1e300;
+  double const scale = 1e-3 * (law.eos == EosKind::Tillotson ? law.tillotson.energy : 1e6);
+  double energy = law.energy0;
+  for (int i = 0; i < 60; ++i)
+  {
+    double const here = equationOfState(law, specific_volume, energy).pressure;
+    double const slope = (equationOfState(law, specific_volume, energy + scale).pressure - here) / scale;
+    double const change = (pressure - here) / slope;
+    energy += change;
+    if (std::fabs(change) <= 1e-14 * (std::fabs(energy) + scale))
+      break;
+  }
+  return energy;
 }
 
 } // namespace
@@ -152,21 +171,22 @@ InitialState initialState(DeckChecker const &check, ParameterList const &list, L
     state.internal_energy = list.get<double>("internal_energy");
   if (law.rigid)
     return state;
-  check.require(eosInRange(m, 1.0 / state.density), keyPath(path, "density"),
-                numberText(state.density) + " is beyond the reach of the law's Hugoniot");
+  bool const by_pressure = list.isParameter("pressure"); // the energy is not known yet
+  check.require(by_pressure || m.eos == EosKind::IdealGas || eosInRange(m, 1.0 / state.density, state.internal_energy),
+                keyPath(path, "density"),
+                numberText(state.density) + " is beyond the range of the law's equation of state");
   if (list.isParameter("pressure"))
   {
     std::string const where = keyPath(path, "pressure");
     double const pressure = list.get<double>("pressure");
     check.require(!energy_given, where, "given together with internal_energy; expected: one of them");
-    double const sv = 1.0 / state.density;
-    double const at_reference = equationOfState(m, sv, m.energy0).pressure;
-    // dp/de at constant density: every law is linear in e.
-    double const slope = m.eos == EosKind::Stiffened      ? m.gruneisen * state.density
-                         : m.eos == EosKind::MieGruneisen ? m.gruneisen * m.density0
-                                                          : (m.gruneisen - 1.0) * state.density;
-    if (slope > 0.0)
-      state.internal_energy = m.energy0 + (pressure - at_reference) / slope;
+    check.require(pressure >= -m.tension_limit, where, numberText(pressure) + " is beyond the law's tension_limit");
+    if (m.gruneisen > 0.0)
+    {
+      state.internal_energy = energyAtPressure(m, 1.0 / state.density, pressure);
+      check.require(m.eos == EosKind::IdealGas || eosInRange(m, 1.0 / state.density, state.internal_energy), where,
+                    numberText(pressure) + " is beyond the reach of the law");
+    }
     else
     {
       check.require(!density_given, where, "follows from the density in this law; expected: one of them");

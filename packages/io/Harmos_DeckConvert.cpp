@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DeckBodies.hpp>
 #include <Harmos_DeckReader.hpp>
+#include <Harmos_Temperature.hpp>
 
 #include <Teuchos_Array.hpp>
 
@@ -32,32 +33,97 @@ AxisSpec axisOf(DeckChecker const &check, ParameterList const &list, std::string
   return axis;
 }
 
-void convertLaws(ParameterList const &materials, Deck &deck)
+StrengthKind strengthOf(std::string const &word)
+{
+  return word == "elastic"            ? StrengthKind::Elastic
+         : word == "plastic"          ? StrengthKind::Plastic
+         : word == "power hardening"  ? StrengthKind::PowerHardening
+         : word == "johnson-cook"     ? StrengthKind::JohnsonCook
+         : word == "steinberg-guinan" ? StrengthKind::SteinbergGuinan
+                                      : StrengthKind::None;
+}
+
+/// The numbers of a law's list; absent ones are zero.
+struct LawNumbers
+{
+  ParameterList const &list;
+  double operator()(char const *key) const { return list.isParameter(key) ? list.get<double>(key) : 0.0; }
+  double operator()(char const *key, double absent) const
+  {
+    return list.isParameter(key) ? list.get<double>(key) : absent;
+  }
+};
+
+void convertTillotson(DeckChecker const &check, LawNumbers const &value, std::string const &path, Material &law)
+{
+  TillotsonLaw &t = law.tillotson;
+  t.a = value("a");
+  t.b = value("b");
+  t.bulk = value("bulk_modulus");
+  t.quadratic = value("quadratic_modulus");
+  t.alpha = value("alpha");
+  t.beta = value("beta");
+  t.energy = value("vapour_energy");
+  t.incipient = value("incipient_vaporisation");
+  t.complete = value("complete_vaporisation");
+  check.require(t.complete > t.incipient, keyPath(path, "complete_vaporisation"),
+                numberText(t.complete) + " is not above incipient_vaporisation = " + numberText(t.incipient));
+  law.sound_speed0 = std::sqrt(t.bulk / law.density0);
+  law.gruneisen = t.a + t.b;
+}
+
+void convertStrength(DeckChecker const &check, LawNumbers const &value, std::string const &path, Material &law)
+{
+  law.shear_modulus = value("shear_modulus");
+  law.yield = value("yield_stress");
+  bool const steinberg = law.strength == StrengthKind::SteinbergGuinan;
+  law.hardening = value(steinberg ? "hardening_coefficient" : "hardening_modulus");
+  FlowLaw &flow = law.flow;
+  flow.hardening_exponent = value("hardening_exponent", 1.0);
+  flow.rate_coefficient = value("rate_coefficient");
+  flow.reference_rate = value("reference_rate", 1.0);
+  flow.softening_exponent = value("softening_exponent", 1.0);
+  flow.initial_strain = value("initial_plastic_strain");
+  flow.largest_yield = value("largest_yield_stress", flow.largest_yield);
+  flow.pressure_coefficient = value("pressure_coefficient");
+  flow.temperature_coefficient = value("temperature_coefficient");
+  flow.melting_exponent = value("melting_exponent");
+  if (!value.list.isParameter("heat_capacity"))
+    return;
+  flow.melting_temperature = value("melting_temperature");
+  double const reference = value("reference_temperature");
+  check.require(flow.melting_temperature > reference, keyPath(path, "melting_temperature"),
+                numberText(flow.melting_temperature) +
+                    " is not above reference_temperature = " + numberText(reference));
+  setThermalCurve(law, value("heat_capacity"), reference);
+}
+
+void convertLaws(DeckChecker const &check, ParameterList const &materials, Deck &deck)
 {
   for (auto i = materials.begin(); i != materials.end(); ++i)
   {
     ParameterList const &list = materials.sublist(materials.name(i));
-    auto const value = [&list](char const *key) { return list.isParameter(key) ? list.get<double>(key) : 0.0; };
+    LawNumbers const value{list};
     LawSpec spec;
     spec.name = materials.name(i);
+    std::string const path = "materials/" + spec.name;
     std::string const eos = list.get<std::string>("eos");
     spec.rigid = eos == "rigid";
     Material &law = spec.law;
     law.eos = eos == "mie-gruneisen" ? EosKind::MieGruneisen
               : eos == "ideal gas"   ? EosKind::IdealGas
+              : eos == "tillotson"   ? EosKind::Tillotson
                                      : EosKind::Stiffened;
     law.density0 = value("density");
     law.sound_speed0 = value("sound_speed");
     law.slope = value("slope");
     law.gruneisen = eos == "ideal gas" ? value("gamma") : value("gruneisen");
     law.energy0 = value("internal_energy");
-    std::string const strength = list.isParameter("strength") ? list.get<std::string>("strength") : "none";
-    law.strength = strength == "plastic"   ? StrengthKind::Plastic
-                   : strength == "elastic" ? StrengthKind::Elastic
-                                           : StrengthKind::None;
-    law.shear_modulus = value("shear_modulus");
-    law.yield = value("yield_stress");
-    law.hardening = value("hardening_modulus");
+    if (law.eos == EosKind::Tillotson)
+      convertTillotson(check, value, path, law);
+    if (list.isParameter("strength"))
+      law.strength = strengthOf(list.get<std::string>("strength"));
+    convertStrength(check, value, path, law);
     if (value("tension_limit") > 0.0)
       law.tension_limit = value("tension_limit");
     deck.laws.push_back(spec);
@@ -336,7 +402,7 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   // Faces are numbered 4 * cell + k in 32 bits.
   check.require(static_cast<long long>(deck.x.cells) * deck.y.cells <= std::numeric_limits<int>::max() / 4, "mesh",
                 "more cells than 32-bit face numbers reach");
-  convertLaws(complete.sublist("materials"), deck);
+  convertLaws(check, complete.sublist("materials"), deck);
   check.require(!deck.laws.empty(), "materials", "none; expected: at least one");
   convertBodies(check, complete.sublist("bodies"), deck);
   convertBoundaries(check, complete.sublist("boundaries"), deck);

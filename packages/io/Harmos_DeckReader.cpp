@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DeckReader.hpp>
+#include <Harmos_DeckSchema.hpp>
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_YamlParameterListCoreHelpers.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 namespace Harmos
@@ -17,6 +20,9 @@ namespace
 using Teuchos::ParameterList;
 
 char const *const root_name = "harmos";
+
+/// The text of a file. \throws DeckError
+using TextReader = std::function<std::string(std::string const &)>;
 
 /// Teuchos' parser refuses other than ASCII even in comments, and a last line without its end.
 std::string forParser(std::string const &text)
@@ -118,16 +124,111 @@ void applyOverride(ParameterList &deck, std::string const &text)
     list->setEntry(name, value.getEntry("value"));
 }
 
-} // namespace
+/// A word as the deck may spell it, with hyphens.
+std::string hyphened(std::string text)
+{
+  for (char &c : text)
+    c = c == ' ' || c == '_' ? '-' : c;
+  return text;
+}
 
-ParameterList parseDeck(std::string const &text, std::string const &file, std::vector<std::string> const &overrides)
+/// Whether a condition of the schema, "eos = stiffened, strength = plastic", holds in a list.
+bool holds(std::string const &condition, ParameterList const &list)
+{
+  std::size_t at = 0;
+  while (at < condition.size())
+  {
+    std::size_t const end = std::min(condition.find(", ", at), condition.size());
+    std::string const part = condition.substr(at, end - at);
+    std::size_t const equals = part.find(" = ");
+    std::string const key = part.substr(0, equals);
+    if (!list.isType<std::string>(key) || hyphened(list.get<std::string>(key)) != hyphened(part.substr(equals + 3)))
+      return false;
+    at = end + 2;
+  }
+  return true;
+}
+
+/// Whether some law has a material's key, but none that the list chooses.
+bool belongsElsewhere(std::vector<SchemaKey> const &keys, std::string const &name, ParameterList const &list)
+{
+  bool known = false;
+  for (SchemaKey const &key : keys)
+    if (key.path == "materials/NAME/" + name)
+    {
+      known = true;
+      if (holds(key.condition, list))
+        return false;
+    }
+  return known;
+}
+
+/// Replace `from: FILE` in the deck's materials by the keys of that file. The deck's own keys win; where it chooses
+/// another eos or strength than the file, the file's keys for the old one are left out.
+void includeMaterials(ParameterList &deck, std::string const &file, TextReader const &read)
+{
+  if (!deck.isSublist("materials"))
+    return;
+  ParameterList &materials = deck.sublist("materials");
+  std::size_t const slash = file.find_last_of('/');
+  std::string const folder = slash == std::string::npos ? "" : file.substr(0, slash + 1);
+  std::vector<SchemaKey> keys;
+  for (auto i = materials.begin(); i != materials.end(); ++i)
+  {
+    if (!i->second.isList() || !materials.sublist(i->first).isParameter("from"))
+      continue;
+    ParameterList &own = materials.sublist(i->first);
+    std::string const where = file + ": " + keyPath("materials/" + i->first, "from");
+    if (!own.isType<std::string>("from"))
+      throw DeckError(where + ": expected: the name of a file");
+    std::string const name = own.get<std::string>("from");
+    std::string const path = name[0] == '/' ? name : folder + name;
+    ParameterList merged = parseYaml(read(path), path);
+    if (merged.name() != "material")
+      throw DeckError(path + ": outermost key is " + merged.name() + "; expected: material");
+    bool const chooses = own.isParameter("eos") || own.isParameter("strength");
+    merged.setParameters(own);
+    merged.remove("from");
+    if (keys.empty())
+      keys = schemaKeys(deckSchema());
+    std::vector<std::string> elsewhere;
+    for (auto j = merged.begin(); chooses && j != merged.end(); ++j)
+      if (!own.isParameter(j->first) && belongsElsewhere(keys, j->first, merged))
+        elsewhere.push_back(j->first);
+    for (std::string const &key : elsewhere)
+      merged.remove(key);
+    own = merged;
+    own.setName(i->first);
+  }
+}
+
+/// The text of a file that this rank alone reads.
+std::string readWhole(std::string const &file)
+{
+  std::ifstream stream(file);
+  std::ostringstream content;
+  if (!stream || !(stream.peek() == std::ifstream::traits_type::eof() || content << stream.rdbuf()))
+    throw DeckError(file + ": cannot be read");
+  return content.str();
+}
+
+ParameterList parseWith(std::string const &text, std::string const &file, std::vector<std::string> const &overrides,
+                        TextReader const &read)
 {
   ParameterList deck = parseYaml(text, file);
   if (deck.name() != root_name)
     throw DeckError(file + ": outermost key is " + deck.name() + "; expected: " + root_name);
   for (std::string const &item : overrides)
     applyOverride(deck, item);
+  includeMaterials(deck, file, read);
   return deck;
+}
+
+} // namespace
+
+ParameterList parseDeck(std::string const &text, std::string const &file, std::vector<std::string> const &overrides)
+{
+  return parseWith(text, file, overrides, readWhole);
 }
 
 Deck readDeckText(std::string const &text, std::string const &file, std::vector<std::string> const &overrides)
@@ -160,7 +261,9 @@ std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm)
 
 Deck readDeck(std::string const &file, std::vector<std::string> const &overrides, Teuchos::Comm<int> const &comm)
 {
-  return readDeckText(deckText(file, comm), file, overrides);
+  TextReader const read = [&comm](std::string const &path) { return deckText(path, comm); };
+  ParameterList const list = parseWith(read(file), file, overrides, read);
+  return convertDeck(completeDeck(deckSchema(), list, file), file);
 }
 
 } // namespace Harmos

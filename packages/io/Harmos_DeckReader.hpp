@@ -17,7 +17,9 @@ namespace Harmos
 ///
 /// \param overrides "path/to/key=value" (a value as YAML spells it), applied before any check. A map that is missing
 ///                  on the way is made; an unknown key is then an error as in the file.
-/// \throws DeckError (on all ranks alike): one line with the file, the key's path, what is wrong and what is expected.
+/// A material's `from: FILE`, a path from the deck's own folder, is replaced by the keys under that file's outermost
+/// key `material`; keys in the deck itself win. \throws DeckError (on all ranks alike): one line with the file, the
+/// key's path, what is wrong and what is expected.
 Deck readDeck(std::string const &file, std::vector<std::string> const &overrides, Teuchos::Comm<int> const &comm);
 
 /// The same from text; `file` is for messages.

@@ -22,7 +22,7 @@ struct CornerForceFunctor
 
   KOKKOS_FORCEINLINE_FUNCTION void compute(int number, int const pair[pack_width], unsigned lanes) const
   {
-    Material const material = materials[number];
+    Material const &material = materials[number];
     int cell[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
       cell[lane] = cell_of[pair[lane]];

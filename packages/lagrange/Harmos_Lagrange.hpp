@@ -67,6 +67,8 @@ struct UpdateReport
   long long out_of_range = 0; // owned pairs past the equation of state's range (eosInRange)
   int cell = -1;              // the first inverted or not-a-number one (lowest local number), with its material
   int material = -1;
+  int range_cell = -1; // the first one out of range
+  int range_material = -1;
 };
 
 /// What limitTravel found and did.
@@ -165,7 +167,8 @@ void closeMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState
 /// Advance the records of the deformable pairs to t^{n+1}, in place, with v_half = work.half and
 /// v_mean = (state.velocity + v_half) / 2:
 /// m (e' - e) = - dt sum_I f_I . v_mean_I; sv' = sv A'/A; strain and spin from the mean-quadrature gradient at
-/// mid-step; deviator rotated (Hughes-Winget), 2 G dev(D) dt added, returned to the yield surface.
+/// mid-step; deviator rotated (Hughes-Winget), 2 G dev(D) dt added, returned to the yield surface (strainedDeviator),
+/// whose temperature and pressure are those of sv', e'.
 ///
 /// \param next The stable step of the new state, as stableTimeStep at v_half and x'.
 UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,

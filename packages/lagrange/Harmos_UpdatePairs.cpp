@@ -18,8 +18,9 @@ struct UpdateSums
   long long not_a_number = 0;
   long long out_of_range = 0;
   int first_pair = -1;
+  int first_out_of_range = -1;
 
-  KOKKOS_INLINE_FUNCTION void trouble(int pair) { first_pair = first_pair < 0 ? pair : Math::min(first_pair, pair); }
+  static KOKKOS_INLINE_FUNCTION void note(int &first, int pair) { first = first < 0 ? pair : Math::min(first, pair); }
   KOKKOS_INLINE_FUNCTION void join(UpdateSums const &other)
   {
     largest.join(other.largest);
@@ -27,7 +28,9 @@ struct UpdateSums
     not_a_number += other.not_a_number;
     out_of_range += other.out_of_range;
     if (other.first_pair >= 0)
-      trouble(other.first_pair);
+      note(first_pair, other.first_pair);
+    if (other.first_out_of_range >= 0)
+      note(first_out_of_range, other.first_out_of_range);
   }
 };
 
@@ -95,7 +98,8 @@ struct UpdateFunctor
     return lanes;
   }
 
-  KOKKOS_INLINE_FUNCTION void countTrouble(Material const &material, detail::UpdatedPair<Pack> const &updated,
+  template <class InRange>
+  KOKKOS_INLINE_FUNCTION void countTrouble(detail::UpdatedPair<Pack> const &updated, InRange const &in_range,
                                            int const pair[pack_width], unsigned lanes, UpdateSums &sums) const
   {
     auto const finite = isFinite(updated.record);
@@ -106,9 +110,11 @@ struct UpdateFunctor
       bool const folded = !(laneOf(updated.corner_area, lane) > 0.0);
       sums.inverted += folded;
       sums.not_a_number += !laneOf(finite, lane);
-      sums.out_of_range += !eosInRange(material, laneOf(updated.record.specific_volume, lane));
+      sums.out_of_range += !laneOf(in_range, lane);
       if (folded || !laneOf(finite, lane))
-        sums.trouble(pair[lane]);
+        UpdateSums::note(sums.first_pair, pair[lane]);
+      if (!laneOf(in_range, lane))
+        UpdateSums::note(sums.first_out_of_range, pair[lane]);
     }
   }
 
@@ -124,7 +130,7 @@ struct UpdateFunctor
   KOKKOS_FORCEINLINE_FUNCTION void update(int number, int const pair[pack_width], unsigned lanes,
                                           UpdateSums &sums) const
   {
-    Material const material = materials[number];
+    Material const &material = materials[number];
     int cell[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
       cell[lane] = cell_of[pair[lane]];
@@ -144,17 +150,17 @@ struct UpdateFunctor
                                        r.plastic_strain, r.deviator.xx, r.deviator.yy,     r.deviator.xy};
     storeRows(row, lanes, [&](int lane) { return record.row(pair[lane]); });
 
+    EosState<Pack> const eos = equationOfState(material, r.specific_volume, r.internal_energy);
     Pack const acoustic =
-        detail::acousticRate(material, options, updated.geometry, r.specific_volume, r.internal_energy);
+        detail::acousticRate(material, options, updated.geometry, eos, r.specific_volume, r.internal_energy);
     Pack const rate = detail::pairRate(pairs, dof_mass, limits, pair, v, updated.geometry, acoustic, r.specific_volume);
     if (any(rate > Pack(sums.largest.rate)))
       for (int lane = 0; lane < pack_width; ++lane)
         if (stored(owned_lanes, lane))
           sums.largest.include(laneOf(rate, lane), pair[lane]);
-    auto const good =
-        both(both(updated.corner_area > Pack(0.0), isFinite(r)), detail::inRange(material, r.specific_volume));
-    if (any(no(good)))
-      countTrouble(material, updated, pair, owned_lanes, sums);
+    auto const in_range = eosInRange(material, eos, r.specific_volume, r.internal_energy);
+    if (any(no(both(both(updated.corner_area > Pack(0.0), isFinite(r)), in_range))))
+      countTrouble(updated, in_range, pair, owned_lanes, sums);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int block, UpdateSums &sums) const
@@ -200,6 +206,11 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
     report.cell = valueAt(pairs.cell, result.first_pair);
     report.material = valueAt(pairs.material, result.first_pair);
   }
+  if (result.first_out_of_range >= 0)
+  {
+    report.range_cell = valueAt(pairs.cell, result.first_out_of_range);
+    report.range_material = valueAt(pairs.material, result.first_out_of_range);
+  }
   return report;
 }
 
@@ -231,8 +242,9 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
         double const inverse = 1.0 / b.area;
         detail::StepGeometry<double> const geometry{b.area, detail::longestMidlineSquared(b) * inverse * inverse,
                                                     Math::max(-(gradient.xx + gradient.yy) * inverse, 0.0)};
-        double const sv = record(pair, SpecificVolume);
-        double const acoustic = detail::acousticRate(material, options, geometry, sv, record(pair, InternalEnergy));
+        double const sv = record(pair, SpecificVolume), e = record(pair, InternalEnergy);
+        EosState<double> const eos = equationOfState(material, sv, e);
+        double const acoustic = detail::acousticRate(material, options, geometry, eos, sv, e);
         largest.include(detail::pairRate(pairs, dof_mass, limits, pair, v, geometry, acoustic, sv), pair);
       },
       detail::JoinReducer<detail::LargestRate>(result));

@@ -2,18 +2,10 @@
 #ifndef HARMOS_EQUATION_OF_STATE_HPP
 #define HARMOS_EQUATION_OF_STATE_HPP
 
-#include <Harmos_Material.hpp>
-#include <Harmos_Select.hpp>
+#include <Harmos_Tillotson.hpp>
 
 namespace Harmos
 {
-
-template <class T>
-struct EosState
-{
-  T pressure;            // [Pa], positive in compression
-  T sound_speed_squared; // bulk, isentropic: c^2 = dp/drho|_e + (p / rho^2) dp/de|_rho [m^2/s^2]
-};
 
 /// Mie-Gruneisen: least 1 - s eta that is evaluated. Below it the Hugoniot runs into its pole; there p_H is continued
 /// with this denominator, and eosInRange says no.
@@ -71,8 +63,8 @@ KOKKOS_INLINE_FUNCTION EosState<T> idealGas(Material const &m, T specific_volume
 ///
 /// \param specific_volume [m^3/kg], > 0. \param internal_energy [J/kg].
 /// \return p as EosKind states it, cut off at -tension_limit (strong tension has no stable answer: c^2 falls below zero
-/// where gamma0 rho0 p sv^2 = -c0^2; a solid fails long before); c^2 not below least_sound_speed_ratio_squared c0^2 (ideal gas: not below 0).
-/// T: double, or a pack whose lanes share the material.
+/// where gamma0 rho0 p sv^2 = -c0^2; a solid fails long before); c^2 not below least_sound_speed_ratio_squared c0^2
+/// (ideal gas: not below 0). T: double, or a pack whose lanes share the material.
 template <class T>
 KOKKOS_INLINE_FUNCTION EosState<T> equationOfState(Material const &material, T specific_volume, T internal_energy)
 {
@@ -81,30 +73,46 @@ KOKKOS_INLINE_FUNCTION EosState<T> equationOfState(Material const &material, T s
     state = detail::mieGruneisen(material, specific_volume, internal_energy);
   else if (material.eos == EosKind::Stiffened)
     state = detail::stiffened(material, specific_volume, internal_energy);
-  else
+  else if (material.eos == EosKind::IdealGas)
     state = detail::idealGas(material, specific_volume, internal_energy);
+  else
+    state = detail::tillotson(material, specific_volume, internal_energy);
   double const floor = least_sound_speed_ratio_squared * material.sound_speed0 * material.sound_speed0;
   state.sound_speed_squared = Math::max(state.sound_speed_squared, T(floor));
   state.pressure = Math::max(state.pressure, T(-material.tension_limit));
   return state;
 }
 
-/// Whether the equation of state is meant for this specific volume: positive, and for Mie-Gruneisen short of the pole
-/// s eta = 1 of the Hugoniot (least_hugoniot_denominator).
-KOKKOS_INLINE_FUNCTION bool eosInRange(Material const &material, double specific_volume)
+/// Whether the equation of state is meant for this state, lane by lane: its range. Outside it goes on, by floors and
+/// held denominators.
+///
+///  - All: sv > 0, and c^2 above its floor (strong tension and, ideal gas, e <= 0 have no stable answer) unless the
+///    pressure is cut off at the tension limit;
+///  - Mie-Gruneisen: short of the pole s eta = 1 of the Hugoniot (least_hugoniot_denominator);
+///  - Tillotson: e > -E0 eta^2 / 2, short of its pole at -E0 eta^2.
+/// \param state Of equationOfState at sv and e.
+template <class T>
+KOKKOS_INLINE_FUNCTION auto eosInRange(Material const &material, EosState<T> const &state, T specific_volume,
+                                       T internal_energy)
 {
-  double const eta = 1.0 - material.density0 * specific_volume;
-  bool const short_of_pole =
-      material.eos != EosKind::MieGruneisen || 1.0 - material.slope * eta > least_hugoniot_denominator;
-  return specific_volume > 0.0 && short_of_pole;
+  double const floor = least_sound_speed_ratio_squared * material.sound_speed0 * material.sound_speed0;
+  auto const stable = no(both(state.sound_speed_squared <= T(floor), state.pressure > T(-material.tension_limit)));
+  auto const good = both(specific_volume > T(0.0), stable);
+  if (material.eos == EosKind::MieGruneisen)
+    return both(good,
+                T(1.0 - material.slope * (1.0 - material.density0 * specific_volume)) > T(least_hugoniot_denominator));
+  if (material.eos == EosKind::Tillotson)
+  {
+    T const volume = material.density0 * specific_volume;
+    return both(good, T(internal_energy * volume * volume) > T(-0.5 * material.tillotson.energy));
+  }
+  return good;
 }
 
-/// Squared speed of longitudinal waves: c_L^2 = c_b^2 + 4 G / (3 rho); the bulk speed without strength.
-template <class T>
-KOKKOS_INLINE_FUNCTION T longitudinalSoundSpeedSquared(Material const &material, T bulk_squared, T specific_volume)
+KOKKOS_INLINE_FUNCTION bool eosInRange(Material const &material, double specific_volume, double internal_energy)
 {
-  double const modulus = material.strength == StrengthKind::None ? 0.0 : material.shear_modulus;
-  return bulk_squared + (4.0 / 3.0 * modulus) * specific_volume;
+  return specific_volume > 0.0 && eosInRange(material, equationOfState(material, specific_volume, internal_energy),
+                                             specific_volume, internal_energy);
 }
 
 } // namespace Harmos

@@ -2,8 +2,7 @@
 #ifndef HARMOS_STRENGTH_HPP
 #define HARMOS_STRENGTH_HPP
 
-#include <Harmos_Material.hpp>
-#include <Harmos_Select.hpp>
+#include <Harmos_FlowStress.hpp>
 
 namespace Harmos
 {
@@ -42,7 +41,7 @@ KOKKOS_INLINE_FUNCTION Deviator<T> rotate(Deviator<T> const &s, T spin_increment
   return {mean + turned, mean - turned, sine2 * difference + cosine2 * s.xy};
 }
 
-/// Flow stress, yield0 + hardening eps, not below zero. [Pa]
+/// Flow stress of StrengthKind::Plastic, yield0 + hardening eps, not below zero. [Pa]
 template <class T>
 KOKKOS_INLINE_FUNCTION T yieldStress(Material const &material, T plastic_strain)
 {
@@ -81,14 +80,56 @@ KOKKOS_INLINE_FUNCTION ReturnedStress<T> radialReturn(Material const &material, 
   return {{scale * trial.xx, scale * trial.yy, scale * trial.xy}, increment};
 }
 
-/// Elastic predictor: s + 2 G dev(E), E the strain increment in plane strain (E_zz = 0, E_xy the tensor component).
+/// Strain increment in plane strain: zz = 0, xy the tensor component.
 template <class T>
-KOKKOS_INLINE_FUNCTION Deviator<T> elasticTrial(Material const &material, Deviator<T> const &s, T strain_xx,
-                                                T strain_yy, T strain_xy)
+struct StrainIncrement
 {
-  double const two_g = 2.0 * material.shear_modulus;
-  T const mean = (strain_xx + strain_yy) * (1.0 / 3.0);
-  return {s.xx + two_g * (strain_xx - mean), s.yy + two_g * (strain_yy - mean), s.xy + two_g * strain_xy};
+  T xx, yy, xy;
+};
+
+/// Elastic predictor: s + 2 G dev(strain). G: double or T.
+template <class T, class Modulus>
+KOKKOS_INLINE_FUNCTION Deviator<T> elasticTrial(Modulus const &shear_modulus, Deviator<T> const &s,
+                                                StrainIncrement<T> const &strain)
+{
+  Modulus const two_g = 2.0 * shear_modulus;
+  T const mean = (strain.xx + strain.yy) * (1.0 / 3.0);
+  return {s.xx + two_g * (strain.xx - mean), s.yy + two_g * (strain.yy - mean), s.xy + two_g * strain.xy};
+}
+
+/// The same and back to the yield surface, for the laws of flowStress; G and f at the end of the step.
+///
+/// s = (1 - 3 G d_eps / q) s_trial, d_eps by plasticIncrement; no deviator where f = 0.
+template <class T>
+HARMOS_RARE_FUNCTION ReturnedStress<T> flowDeviator(Material const &m, Deviator<T> turned, StrainIncrement<T> strain,
+                                                    T plastic_strain, T specific_volume, T internal_energy, double dt)
+{
+  T const f = softeningAt(m, specific_volume, internal_energy);
+  T const modulus = m.strength == StrengthKind::SteinbergGuinan ? T(m.shear_modulus * f) : T(m.shear_modulus);
+  Deviator<T> const trial = elasticTrial(modulus, turned, strain);
+  T const q = Math::sqrt(T(3.0 * secondInvariant(trial)));
+  T const increment = Lanes<T>::of(
+      [&](int lane)
+      {
+        return plasticIncrement(m, laneOf(q, lane), laneOf(plastic_strain, lane), dt, laneOf(f, lane),
+                                laneOf(modulus, lane));
+      });
+  T const scale = select(increment > T(0.0), T(1.0 - 3.0 * modulus * increment / Math::max(q, T(1e-300))), T(1.0));
+  T const kept = select(f > T(0.0), scale, T(0.0));
+  return {{kept * trial.xx, kept * trial.yy, kept * trial.xy}, increment};
+}
+
+/// The deviator and the plastic strain after a strain increment: elasticTrial and radialReturn, or flowDeviator.
+///
+/// \param turned The old deviator after rotate. \param specific_volume, internal_energy At the end of the step.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION ReturnedStress<T> strainedDeviator(Material const &material, Deviator<T> const &turned,
+                                                               StrainIncrement<T> const &strain, T plastic_strain,
+                                                               T specific_volume, T internal_energy, double dt)
+{
+  if (hasFlowLaw(material))
+    return flowDeviator(material, turned, strain, plastic_strain, specific_volume, internal_energy, dt);
+  return radialReturn(material, elasticTrial(material.shear_modulus, turned, strain), plastic_strain);
 }
 
 } // namespace Harmos

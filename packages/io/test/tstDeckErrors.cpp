@@ -180,7 +180,7 @@ TEST(DeckErrors, OptionsThatDoNotGoTogether_areRefused)
   EXPECT_HAS(message({"bodies/gas={material: air, shape: disc, center: [0, 0], radius: 1}"}),
              "bodies/gas: an ideal gas needs a positive");
   EXPECT_HAS(message({"bodies/ring/density=1.0e6"}),
-             "bodies/ring/density: 1000000.0 is beyond the reach of the law's Hugoniot");
+             "bodies/ring/density: 1000000.0 is beyond the range of the law's equation of state");
 }
 
 TEST(DeckErrors, Lagrangian_takesConvexBlocksWithoutInflow)

@@ -214,17 +214,6 @@ KOKKOS_FORCEINLINE_FUNCTION Pack pairRate(CellMaterialPairs const &pairs, View<d
       });
 }
 
-/// eosInRange, lane by lane.
-template <class T>
-KOKKOS_FORCEINLINE_FUNCTION auto inRange(Material const &material, T specific_volume)
-{
-  auto const positive = specific_volume > T(0.0);
-  if (material.eos != EosKind::MieGruneisen)
-    return positive;
-  T const eta = 1.0 - material.density0 * specific_volume;
-  return both(positive, T(1.0 - material.slope * eta) > T(least_hugoniot_denominator));
-}
-
 /// 1 / dt of a rigid pair: its travel through the unmoved cell.
 KOKKOS_INLINE_FUNCTION double rigidPairRate(StepLimits const &limits, Corners<double> const &x,
                                             Corners<double> const &v)

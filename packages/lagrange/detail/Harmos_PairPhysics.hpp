@@ -31,7 +31,8 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, Lagr
   T const rate = ((v.x[0] - v.x[2]) * b.x0 + (v.x[1] - v.x[3]) * b.x1 + (v.y[0] - v.y[2]) * b.y0 +
                   (v.y[1] - v.y[3]) * b.y1); // area * tr D
   EosState<T> const eos = equationOfState(material, pair.specific_volume, pair.internal_energy);
-  T const c2 = longitudinalSoundSpeedSquared(material, eos.sound_speed_squared, pair.specific_volume);
+  T const c2 =
+      longitudinalSoundSpeedSquared(material, eos.sound_speed_squared, pair.specific_volume, pair.internal_energy);
   T const c_length = Math::sqrt(T(c2 * b.area));
 
   // sv q = c1 c L |theta| + c2 L^2 theta^2: the force volume m sv times q needs no density
@@ -72,10 +73,10 @@ struct StepGeometry
 /// compresses next.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T acousticRate(Material const &material, LagrangeOptions const &options,
-                                           StepGeometry<T> const &cell, T specific_volume, T internal_energy)
+                                           StepGeometry<T> const &cell, EosState<T> const &eos, T specific_volume,
+                                           T internal_energy)
 {
-  EosState<T> const eos = equationOfState(material, specific_volume, internal_energy);
-  T const c2 = longitudinalSoundSpeedSquared(material, eos.sound_speed_squared, specific_volume);
+  T const c2 = longitudinalSoundSpeedSquared(material, eos.sound_speed_squared, specific_volume, internal_energy);
   T const viscosity = options.linear_viscosity * Math::sqrt(T(c2 * cell.area)) +
                       options.quadratic_viscosity * (cell.area * cell.compression);
   T const q = viscosity * cell.inverse_length_squared;
@@ -121,9 +122,10 @@ KOKKOS_FORCEINLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, 
   updated.specific_volume = pair.specific_volume * (b_np1.area * (inverse_both * b.area));
   updated.internal_energy = pair.internal_energy + dt * power * (inverse * both);
   Deviator<T> const turned = rotate(pair.deviator, T((0.5 * step) * (gradient.yx - gradient.xy)));
-  Deviator<T> const trial = elasticTrial(material, turned, T(step * gradient.xx), T(step * gradient.yy),
-                                         T((0.5 * step) * (gradient.xy + gradient.yx)));
-  ReturnedStress<T> const returned = radialReturn(material, trial, pair.plastic_strain);
+  StrainIncrement<T> const strain = {step * gradient.xx, step * gradient.yy,
+                                     (0.5 * step) * (gradient.xy + gradient.yx)};
+  ReturnedStress<T> const returned = strainedDeviator(material, turned, strain, pair.plastic_strain,
+                                                      updated.specific_volume, updated.internal_energy, dt);
   updated.deviator = returned.deviator;
   updated.plastic_strain = pair.plastic_strain + returned.plastic_strain_increment;
 

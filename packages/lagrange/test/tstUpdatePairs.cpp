@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_LagrangeScene.hpp"
 
+#include <Harmos_Temperature.hpp>
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -131,6 +133,60 @@ TEST(UpdatePairs, FoldedCellAndNaN_areCountedAndTheFirstIsNamed)
   EXPECT_EQ(report.cell, 1);
   EXPECT_EQ(report.material, 0);
   EXPECT_EQ(report.out_of_range, 0);
+}
+
+TEST(UpdatePairs, PairsOutOfTheirLawsRange_areCountedAndTheFirstIsNamed)
+{
+  Material gas = fluid();
+  gas.eos = EosKind::IdealGas;
+  gas.gruneisen = 1.4;
+  gas.sound_speed0 = 0.0;
+  Scene s = makeScene(3, 3, 0.0, {gas}, full);
+  auto const r = onHost(s.state.record);
+  for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
+    r(pair, InternalEnergy) = pair == 4 || pair == 6 ? -1.0 : 1.0;
+  Kokkos::deep_copy(s.state.record, r);
+  computeCornerForces(s.mesh, s.pairs, s.state, s.materials, s.options, s.work);
+  setHalf(s, [](Vector2) { return Vector2{0.0, 0.0}; });
+  TimeStepLimit next;
+  auto const report = s.update(1e-6, next);
+  EXPECT_EQ(report.out_of_range, 2);
+  EXPECT_EQ(report.range_cell, 4);
+  EXPECT_EQ(report.range_material, 0);
+  EXPECT_EQ(report.not_a_number, 0);
+  EXPECT_EQ(report.cell, -1);
+}
+
+TEST(UpdatePairs, RateDependentShear_followsTheFlowStressOfItsRateInEveryLane)
+{
+  Material m = elastic();
+  m.strength = StrengthKind::JohnsonCook;
+  m.yield = 1e-3;
+  m.hardening = 2e-3;
+  m.flow.hardening_exponent = 0.5;
+  m.flow.rate_coefficient = 0.02;
+  m.flow.melting_temperature = 2.0;
+  setThermalCurve(m, 1e6, 1.0); // does not warm
+  Scene s = makeScene(3, 3, 0.0, {m}, full);
+  double const rate = 10.0, dt = 1e-4; // du/dy
+  TimeStepLimit next;
+  for (int i = 0; i < 100; ++i)
+  {
+    computeCornerForces(s.mesh, s.pairs, s.state, s.materials, s.options, s.work);
+    setHalf(s, [&](Vector2 x) { return Vector2{rate * x[1], 0.0}; });
+    Kokkos::deep_copy(s.state.velocity, s.work.half);
+    s.update(dt, next);
+  }
+  auto const r = onHost(s.state.record);
+  for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
+  {
+    double const eps = r(pair, PlasticStrain);
+    double const xx = r(pair, DeviatorXX), yy = r(pair, DeviatorYY), xy = r(pair, DeviatorXY);
+    double const stress = std::sqrt(3.0 * (xx * xx + yy * yy + xx * yy + xy * xy));
+    double const expected = (1e-3 + 2e-3 * std::sqrt(eps)) * (1.0 + 0.02 * std::log(rate / std::sqrt(3.0)));
+    EXPECT_GT(eps, 0.05);
+    EXPECT_NEAR(stress / expected, 1.0, 2e-3);
+  }
 }
 
 TEST(UpdatePairs, RigidPairs_keepTheirRecords)

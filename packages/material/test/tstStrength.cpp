@@ -121,7 +121,7 @@ TEST(UniaxialStrain, ElasticThenYield_reachesTheHugoniotElasticLimit)
   // elastic: s_xx = 4/3 G strain; the limit of -sigma_xx = K |strain| + 2/3 Y is Y (K / 2G + 2/3) = 0.583 GPa
   for (;;)
   {
-    auto const result = radialReturn(m, elasticTrial(m, s, step, 0.0, 0.0), 0.0);
+    auto const result = radialReturn(m, elasticTrial(m.shear_modulus, s, {step, 0.0, 0.0}), 0.0);
     if (result.plastic_strain_increment > 0.0)
       break;
     s = result.deviator;

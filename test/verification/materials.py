@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plates of every file of example/materials: shock state on the Hugoniot, elastic precursor, stress on the yield surface.
+
+Exact: jump conditions of mass, momentum and energy with the law's own pressure (strength off: one shock; perfectly plastic: an
+elastic and a plastic one), solved here. The yield stress is evaluated here too, at the state that the probe reports.
+"""
+from math import exp, log, sqrt
+
+from harness import EXAMPLE, ROOT, check, clean, harmos, read_columns, run
+
+DECK = str(ROOT / "test/verification/decks/plate.yaml")
+NEAR, FAR = 0.02, 0.04  # probes
+FILES = sorted(path.name for path in (EXAMPLE / "materials").glob("*.yaml"))
+
+
+def law_of(name):
+    """The numbers and words of a material file: one `key: value` a line."""
+    law = {}
+    for line in (EXAMPLE / "materials" / name).read_text().splitlines():
+        key, _, value = line.split("#")[0].strip().partition(": ")
+        if value:
+            try:
+                law[key] = float(value)
+            except ValueError:
+                law[key] = value
+    return law
+
+
+def sound_speed(law):
+    return law["sound_speed"] if law["eos"] == "mie-gruneisen" else sqrt(law["bulk_modulus"] / law["density"])
+
+
+def pressure(law, rho, e):
+    """In compression below vaporisation; e = 0 in the reference state."""
+    rho0 = law["density"]
+    if law["eos"] == "mie-gruneisen":
+        eta, gamma = 1.0 - rho0 / rho, law["gruneisen"]
+        hugoniot = rho0 * law["sound_speed"] ** 2 * eta / (1.0 - law["slope"] * eta) ** 2
+        return hugoniot * (1.0 - 0.5 * gamma * eta) + gamma * rho0 * e
+    xi = rho / rho0
+    return (law["a"] + law["b"] / (1.0 + e / (law["vapour_energy"] * xi * xi))) * rho * e + \
+        law["bulk_modulus"] * (xi - 1.0) + law["quadratic_modulus"] * (xi - 1.0) ** 2
+
+
+def root(f, low, high):
+    """Of an increasing function, by bisection."""
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if f(middle) < 0.0 else (low, middle)
+    return 0.5 * (low + high)
+
+
+def shocked(law, u, strength=0.0, before=(0.0, None, 0.0, 0.0)):
+    """Behind a shock to velocity u: (stress, density, velocity, energy), and the shock's speed in the material's frame.
+
+    stress = p + strength (2/3 of the yield stress); `before` likewise (density None: the reference one).
+    """
+    s0, rho0, u0, e0 = before
+    rho0 = rho0 or law["density"]
+
+    def behind(rho):
+        # e - e0 = (s + s0) / 2 (v0 - v), p may be curved in e: iterate
+        e = e0
+        for _ in range(60):
+            s = pressure(law, rho, e) + strength
+            e = e0 + 0.5 * (s + s0) * (1.0 / rho0 - 1.0 / rho)
+        return s, e
+
+    def excess(rho):
+        s, _ = behind(rho)
+        return max(s - s0, 0.0) * (1.0 / rho0 - 1.0 / rho) - (u - u0) ** 2
+
+    rho = root(excess, rho0 * (1.0 + 1e-12), 1.6 * rho0)
+    s, e = behind(rho)
+    return (s, rho, u, e), u0 + (s - s0) / (rho0 * (u - u0))
+
+
+def elastic(law, yield_stress):
+    """Behind the elastic precursor: q = 2 G ln(rho / rho0) reaches the yield stress."""
+    rho0 = law["density"]
+    rho = rho0 * exp(yield_stress / (2.0 * law["shear_modulus"]))
+    e = 0.0
+    for _ in range(60):
+        s = pressure(law, rho, e) + 2.0 / 3.0 * yield_stress
+        e = 0.5 * s * (1.0 / rho0 - 1.0 / rho)
+    return s, rho, sqrt(s * (1.0 / rho0 - 1.0 / rho)), e
+
+
+def plate(name, u, end, **more):
+    settings = {"materials/metal": f"{{from: {EXAMPLE / 'materials' / name}}}", "bodies/plate/velocity": f"[{-u}, 0.0]",
+                "run/end_time": end}
+    settings.update({key.replace("__", "/"): value for key, value in more.items()})
+    r = harmos(DECK, settings)
+    probes = read_columns(r.directory / "probes.csv")
+    rows = {p: {c: [v for v, n in zip(values, probes["name"]) if n == p] for c, values in probes.items()} for p in ("near", "far")}
+    for q in rows.values():
+        q["stress"] = [p + 2.0 / 3.0 * m for p, m in zip(q["pressure"], q["von_mises"])]
+    return r, rows["near"], rows["far"]
+
+
+def arrival(probe, column, level):
+    """Time when a column first reaches a level, linear between rows."""
+    values = probe[column]
+    i = next(i for i, v in enumerate(values) if v >= level)
+    part = (level - values[i - 1]) / (values[i] - values[i - 1])
+    return probe["time"][i - 1] + part * (probe["time"][i] - probe["time"][i - 1])
+
+
+def mean(probe, column, start, end):
+    values = [v for v, t in zip(probe[column], probe["time"]) if start < t < end]
+    return sum(values) / len(values)
+
+
+def speed_between(near, far, level):
+    return (FAR - NEAR) / (arrival(far, "stress", level) - arrival(near, "stress", level))
+
+
+def test_shock_states_lie_on_the_hugoniot():
+    u = 500.0
+    for name in FILES:
+        law = law_of(name)
+        (stress, rho, _, _), speed = shocked(law, u)
+        # at rest behind the shock, which runs with Us - u through the mesh
+        end = 1.25 * FAR / (speed - u)
+        r, near, far = plate(name, u, end, materials__metal__strength="none") if "strength" in law else plate(name, u, end)
+        after = arrival(near, "stress", 0.5 * stress) + 0.15 * NEAR / (speed - u)
+        measured = mean(near, "pressure", after, end)
+        print(f"  {name}: {stress / 1e9:.3f} GPa, Us {speed:.1f} m/s")
+        check("pressure", abs(measured / stress - 1.0), 5e-3)
+        check("density", abs(mean(near, "density", after, end) / rho - 1.0), 1e-3)
+        check("shock speed", abs((speed_between(near, far, 0.5 * stress) + u) / speed - 1.0), 3e-3)
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        assert not r.summary["warnings"], r.summary["warnings"]
+        clean(r)
+
+
+def test_perfectly_plastic_plates_send_the_elastic_precursor_ahead():
+    u = 200.0
+    for name in FILES:
+        law = law_of(name)
+        if "strength" not in law:
+            continue
+        y = law["yield_stress"]
+        hel = elastic(law, y)
+        limit = y * (law["density"] * sound_speed(law) ** 2 / (2.0 * law["shear_modulus"]) + 2.0 / 3.0)
+        speed = hel[0] / (law["density"] * hel[2])  # of the elastic shock; linear elasticity: cL
+        (stress, _, _, _), plastic_speed = shocked(law, u, 2.0 / 3.0 * y, hel)
+        end = 1.3 * FAR / (plastic_speed - u)
+        r, near, far = plate(name, u, end, materials__metal__strength="plastic", materials__metal__hardening_modulus=0.0)
+        first, last = arrival(far, "stress", 0.5 * hel[0]), arrival(far, "stress", 0.5 * (hel[0] + stress))
+        plateau = mean(far, "stress", first + 0.3 * (last - first), first + 0.5 * (last - first))
+        final = mean(near, "stress", arrival(near, "stress", 0.5 * (hel[0] + stress)) + 0.2 * NEAR / (plastic_speed - u), end)
+        print(f"  {name}: HEL {hel[0] / 1e9:.4f} GPa (linear {limit / 1e9:.4f}), measured {plateau / 1e9:.4f}; precursor {speed:.0f} m/s")
+        check("stress of the precursor", abs(plateau / hel[0] - 1.0), 5e-3)
+        check("linear formula Y (K / 2G + 2/3)", abs(plateau / limit - 1.0), 0.02)
+        check("precursor speed", abs((speed_between(near, far, 0.5 * hel[0]) + u) / speed - 1.0), 5e-3)
+        check("stress behind both waves", abs(final / stress - 1.0), 5e-3)
+        clean(r)
+
+
+def temperature(law, rho, e):
+    """T_s + (e - e_s) / c_v along the reference isentrope of Mie-Gruneisen or Tillotson (gamma = a + b), by Euler's mid-point rule."""
+    steps, rho0 = 2000, law["density"]
+    d = (1.0 / rho - 1.0 / rho0) / steps
+    es, ts = 0.0, law["reference_temperature"]
+    for i in range(steps):
+        v = 1.0 / rho0 + (i + 0.5) * d
+        gamma = law["gruneisen"] * rho0 * v if law["eos"] == "mie-gruneisen" else law["a"] + law["b"]
+        cold = pressure(law, 1.0 / v, 0.0)
+        middle = es - 0.5 * d * (cold + gamma / v * es)
+        es -= d * (cold + gamma / v * middle)
+        ts *= exp(-gamma / v * d)
+    return ts + (e - es) / law["heat_capacity"]
+
+
+def yield_stress(law, eps, rate, rho, p, e):
+    t = temperature(law, rho, e)
+    if law["strength"] == "johnson-cook":
+        homologous = (t - law["reference_temperature"]) / (law["melting_temperature"] - law["reference_temperature"])
+        work = law["yield_stress"] + law["hardening_modulus"] * eps ** law["hardening_exponent"]
+        return work * (1.0 + law["rate_coefficient"] * log(max(rate, 1.0))) * (1.0 - max(homologous, 0.0) ** law["softening_exponent"])
+    work = law["yield_stress"] * (1.0 + law["hardening_coefficient"] * eps) ** law["hardening_exponent"]
+    factor = 1.0 + law["pressure_coefficient"] * p * (rho / law["density"]) ** (-1.0 / 3.0) - \
+        law["temperature_coefficient"] * (t - 300.0)
+    return min(work, law["largest_yield_stress"]) * factor
+
+
+def test_the_stress_behind_the_shock_is_on_the_yield_surface():
+    u = 300.0
+    for name in FILES:
+        law = law_of(name)
+        if "strength" not in law:
+            continue
+        (stress, _, _, _), speed = shocked(law, u)
+        end = 1.1 * FAR / (speed - u)
+        r, near, _ = plate(name, u, end)
+        # while the front passes the probe the material flows: the row where the stress rises fastest in plastic strain
+        eps = near["plastic_strain"]
+        rates = [(b - a) / (t1 - t0) if t1 > t0 else 0.0
+                 for a, b, t0, t1 in zip(eps, eps[1:], near["time"], near["time"][1:])]
+        i = max(range(len(rates)), key=rates.__getitem__) + 1
+        y = [yield_stress(law, near["plastic_strain"][i], rate, near["density"][i], near["pressure"][i], near["internal_energy"][i])
+             for rate in (1.0, rates[i - 1])]
+        q = near["von_mises"][i]
+        print(f"  {name}: q {q / 1e6:.1f} MPa, at rest {y[0] / 1e6:.1f}, at {rates[i - 1]:.1e}/s {y[1] / 1e6:.1f}")
+        check("equivalent stress on the yield surface of its rate", abs(q / y[1] - 1.0), 0.02)
+        clean(r)
+
+
+def test_leaving_the_range_is_a_warning_with_its_place():
+    # torn off the wall at 2 km/s without a tension limit: no stable pressure is left
+    torn = {"materials__metal__strength": "none", "run__max_cycles": 60}
+    r, _, _ = plate("copper-johnson-cook.yaml", -2000.0, 2e-6, **torn)
+    words = [w for w in r.summary["warnings"] if "range of the equation of state" in w]
+    print("  " + words[0])
+    assert "cell " in words[0] and "material plate" in words[0], words
+    assert words[0] in r.text
+    clean(r)
+    r, _, _ = plate("copper-johnson-cook.yaml", -2000.0, 2e-6, materials__metal__tension_limit=1.0e9, **torn)
+    assert not r.summary["warnings"], r.summary["warnings"]
+    clean(r)
+
+
+run(globals())
