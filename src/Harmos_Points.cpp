@@ -142,17 +142,6 @@ KOKKOS_INLINE_FUNCTION void sampleAt(PointField const &field, int cell, int mate
   out(i, ColumnVonMises) = Math::sqrt(1.5 * (xx * xx + yy * yy + (xx + yy) * (xx + yy) + 2.0 * xy * xy));
 }
 
-template <class T>
-View<T *> toDevice(char const *label, std::vector<T> const &values)
-{
-  View<T *> const view(std::string(label), values.size());
-  auto const host = Kokkos::create_mirror_view(view);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    host(i) = values[i];
-  Kokkos::deep_copy(view, host);
-  return view;
-}
-
 /// Rows that one rank at most has filled, on all ranks: a sum with zeros keeps the bits.
 std::vector<double> gatherRows(View<double **> const &rows, Exchange const &exchange)
 {
@@ -198,9 +187,9 @@ std::vector<PointSample> samplePoints(PointField const &field, std::vector<Vecto
   std::vector<PointSample> samples(points.size());
   if (count == 0)
     return samples;
-  auto const point = toDevice("Harmos::points::position", points);
-  auto const global = toDevice("Harmos::points::cell", cell);
-  auto const preferred = toDevice("Harmos::points::material", material);
+  auto const point = deviceCopy("Harmos::points::position", points);
+  auto const global = deviceCopy("Harmos::points::cell", cell);
+  auto const preferred = deviceCopy("Harmos::points::material", material);
   View<double **> const out("Harmos::points::sample", count, static_cast<int>(sample_width));
   Kokkos::parallel_for(
       "Harmos::points::sample", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
@@ -231,7 +220,7 @@ void moveTracers(PointField const &field, View<double *[2]> const &half, double 
   if (count == 0)
     return;
   constexpr int width = 6; // moved, x, y, vx, vy, one more than the cell
-  auto const tracer = toDevice("Harmos::points::tracer", tracers);
+  auto const tracer = deviceCopy("Harmos::points::tracer", tracers);
   View<double **> const out("Harmos::points::moved", count, width);
   Kokkos::parallel_for(
       "Harmos::points::moveTracers", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {

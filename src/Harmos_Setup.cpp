@@ -22,17 +22,6 @@ std::vector<double> gridLines(AxisSpec const &axis)
   return lines;
 }
 
-template <class T>
-View<T *> deviceCopy(std::string const &label, std::vector<T> const &values)
-{
-  View<T *> view(label, values.size());
-  auto host = Kokkos::create_mirror_view(view);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    host(i) = values[i];
-  Kokkos::deep_copy(view, host);
-  return view;
-}
-
 /// Corners of a body's block: its rectangle, cut off at the domain's sides where it lies along the axes.
 MappedBlock bodyBlock(Deck const &deck, BodySpec const &body)
 {

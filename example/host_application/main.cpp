@@ -79,18 +79,6 @@ bool mapsAgree(Teuchos::RCP<Teuchos::Comm<int> const> const &comm, std::vector<i
   return host_map.isSameAs(harmos_map);
 }
 
-/// A view of host values on the device.
-template <class T>
-View<T *> onDevice(std::string const &label, std::vector<T> const &values)
-{
-  View<T *> view(label, values.size());
-  auto host = Kokkos::create_mirror_view(view);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    host(i) = values[i];
-  Kokkos::deep_copy(view, host);
-  return view;
-}
-
 std::vector<Material> makeMaterials()
 {
   Material copper; // number 0
@@ -136,8 +124,8 @@ Scene makeScene(Mesh const &mesh, Exchange const &exchange)
   scene.mesh = mesh;
   Boundary open;
   open.kind = BoundaryKind::Outflow;
-  scene.boundary = buildBoundaryConditions(mesh, onDevice("boundary", std::vector<Boundary>{open, open}));
-  scene.materials = onDevice("materials", makeMaterials());
+  scene.boundary = buildBoundaryConditions(mesh, deviceCopy("boundary", std::vector<Boundary>{open, open}));
+  scene.materials = deviceCopy("materials", makeMaterials());
   scene.constraint.interaction = View<int **>("interaction", 2, 2); // zero: Interaction::Sliding
   scene.exchange = &exchange;
   return scene;

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #ifndef KOKKOS_VERSION
 #error "Harmos needs Kokkos 3.4 or later"
@@ -79,6 +80,18 @@ KOKKOS_INLINE_FUNCTION constexpr T clamp(T x, T low, T high)
 
 constexpr double pi = 3.14159265358979323846;
 } // namespace Math
+
+/// A new View in the device's memory that holds the values, in their order.
+template <class T>
+View<T *> deviceCopy(std::string const &label, std::vector<T> const &values)
+{
+  View<T *> const view(label, values.size());
+  auto const host = Kokkos::create_mirror_view(view);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    host(i) = values[i];
+  Kokkos::deep_copy(view, host);
+  return view;
+}
 
 /// A profiling region for the lifetime of a scope (Kokkos has its own from 4.1 on).
 class ScopedRegion

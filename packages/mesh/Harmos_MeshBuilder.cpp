@@ -21,15 +21,7 @@ struct Selection
   std::vector<int> cell_depth; // of the whole mesh; -1: beyond the halo
 };
 
-template <class T>
-View<T *> deviceCopy(std::string const &label, std::vector<T> const &values)
-{
-  View<T *> result(label, values.size());
-  auto host = Kokkos::create_mirror_view(result);
-  std::copy(values.begin(), values.end(), host.data());
-  Kokkos::deep_copy(result, host);
-  return result;
-}
+using Harmos::deviceCopy;
 
 template <class T, std::size_t N>
 View<T *[N]> deviceCopy(std::string const &label, std::vector<std::array<T, N>> const &values)

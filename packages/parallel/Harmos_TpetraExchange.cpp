@@ -180,19 +180,17 @@ void TpetraExchange::sum(long long *values, int count) const
 
 HaloCells TpetraExchange::haloCells(int depth) const
 {
-  if (size() == 1)
-    return {};
   Pattern const &pattern = implementation_->pattern(depth);
   return {pattern.sent.cell, pattern.received.cell};
 }
 
 void TpetraExchange::exchangeCounts(View<int *> const &sent, View<int *> const &received, int depth) const
 {
-  if (size() == 1)
-    return;
   Pattern &pattern = implementation_->pattern(depth);
   checkEntries(pattern.sent, sent.extent(0));
   checkEntries(pattern.received, received.extent(0));
+  if (size() == 1)
+    return;
   auto const sent_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sent);
   auto const received_host = Kokkos::create_mirror_view(received);
   pattern.import->getDistributor().doPostsAndWaits(sent_host, 1, received_host);
@@ -201,12 +199,12 @@ void TpetraExchange::exchangeCounts(View<int *> const &sent, View<int *> const &
 
 void TpetraExchange::exchangePacked(PackedRows const &sent, PackedRows const &received, int depth) const
 {
-  if (size() == 1)
-    return;
   ScopedRegion const region("Harmos::parallel::exchangePacked");
   Pattern &pattern = implementation_->pattern(depth);
   setPackets(pattern.sent, sent);
   setPackets(pattern.received, received);
+  if (size() == 1)
+    return;
   auto const sent_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sent.value);
   auto const received_host = Kokkos::create_mirror_view(received.value);
   using Counts = Teuchos::ArrayView<std::size_t const>;

@@ -1,32 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestMetals.hpp"
+
 #include <Harmos_EquationOfState.hpp>
 #include <Harmos_FlowStress.hpp>
 
 #include <gtest/gtest.h>
 
 using namespace Harmos;
+using namespace Harmos::Test;
 
 namespace
 {
-
-Material copper()
-{
-  Material m;
-  m.eos = EosKind::MieGruneisen;
-  m.density0 = 8930.0;
-  m.sound_speed0 = 3940.0;
-  m.slope = 1.489;
-  m.gruneisen = 2.02;
-  m.energy0 = 1.0e3;
-  return m;
-}
-
-Material stiff()
-{
-  Material m = copper();
-  m.eos = EosKind::Stiffened;
-  return m;
-}
 
 /// Melosh, Impact Cratering (1989), appendix II.
 Material tillotsonAluminium()

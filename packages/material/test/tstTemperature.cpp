@@ -1,31 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestMetals.hpp"
+
 #include <Harmos_EquationOfState.hpp>
 #include <Harmos_Temperature.hpp>
 
 #include <gtest/gtest.h>
 
 using namespace Harmos;
+using namespace Harmos::Test;
 
 namespace
 {
 
-Material copper()
+Material warm(Material m)
 {
-  Material m;
-  m.eos = EosKind::MieGruneisen;
-  m.density0 = 8930.0;
-  m.sound_speed0 = 3940.0;
-  m.slope = 1.489;
-  m.gruneisen = 2.02;
-  m.energy0 = 1.0e3;
-  setThermalCurve(m, 383.0, 300.0);
-  return m;
-}
-
-Material stiff()
-{
-  Material m = copper();
-  m.eos = EosKind::Stiffened;
   setThermalCurve(m, 383.0, 300.0);
   return m;
 }
@@ -65,7 +53,7 @@ void isentrope(Material const &m, double eta, double &e, double &t)
 
 TEST(Temperature, ReferenceState_hasTheReferenceTemperature)
 {
-  for (Material const &m : {copper(), stiff()})
+  for (Material const &m : {warm(copper()), warm(stiff())})
   {
     EXPECT_NEAR(temperature(m, 1.0 / m.density0, m.energy0), 300.0, 1e-10);
     EXPECT_NEAR(temperature(m, 1.0 / m.density0, m.energy0 + 383.0 * 100.0), 400.0, 1e-10); // de = c_v dT
@@ -74,7 +62,7 @@ TEST(Temperature, ReferenceState_hasTheReferenceTemperature)
 
 TEST(Temperature, IsentropeOfTheReferenceState_isFollowed)
 {
-  for (Material const &m : {copper(), stiff()})
+  for (Material const &m : {warm(copper()), warm(stiff())})
     for (double const eta : {-0.1, -0.02, 0.05, 0.15, 0.25})
     {
       double e, t;
@@ -85,7 +73,7 @@ TEST(Temperature, IsentropeOfTheReferenceState_isFollowed)
 
 TEST(Temperature, PressureAndTemperature_obeyMaxwellsRelation)
 {
-  for (Material const &m : {copper(), stiff()})
+  for (Material const &m : {warm(copper()), warm(stiff())})
     for (double const eta : {-0.05, 0.02, 0.1, 0.2})
       for (double const heat : {2e4, 2e5})
       {
@@ -98,7 +86,7 @@ TEST(Temperature, PressureAndTemperature_obeyMaxwellsRelation)
 TEST(Temperature, CopperOnItsHugoniot_isThatOfWalshAndChristiansEquation)
 {
   // dT/dsv + gamma / sv T = (p_H + (sv0 - sv) dp_H/dsv) / (2 c_v): Walsh & Christian, Phys. Rev. 97 (1955) 1544
-  Material const m = copper();
+  Material const m = warm(copper());
   double const c = m.sound_speed0, s = m.slope;
   auto const hugoniot = [&](double eta) { return m.density0 * c * c * eta / ((1.0 - s * eta) * (1.0 - s * eta)); };
   auto const slope = [&](double eta)
@@ -122,7 +110,7 @@ TEST(Temperature, CopperOnItsHugoniot_isThatOfWalshAndChristiansEquation)
 
 TEST(Temperature, BeyondItsSeries_staysFiniteAndGrowsWithEnergy)
 {
-  for (Material const &m : {copper(), stiff()})
+  for (Material const &m : {warm(copper()), warm(stiff())})
     for (double const sv : {0.3, 5.0, 100.0})
     {
       double const cold = temperature(m, sv / m.density0, 0.0), hot = temperature(m, sv / m.density0, 1e6);

@@ -115,6 +115,24 @@ void expectSame(V const &a, V const &b, char const *what)
     ASSERT_EQ(x.data()[i], y.data()[i]) << what << " " << i;
 }
 
+void spoilHaloVelocities(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity)
+{
+  Kokkos::parallel_for(
+      "spoilHaloVelocities", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+        if (mesh.node_depth(dof_nodes.node(dof)) > 0)
+          velocity(dof, 0) = velocity(dof, 1) = -9.0;
+      });
+}
+
+/// A local mesh of this rank with a halo of three layers, and its exchange.
+struct Setting
+{
+  Teuchos::RCP<Teuchos::Comm<int> const> comm = Tpetra::getDefaultComm();
+  HostMesh whole = rectilinearMesh(gradedCoordinates(0.0, 1.0, nx, 1.0), gradedCoordinates(0.0, 1.0, ny, 1.0));
+  Mesh mesh = buildLocalMesh(whole, partitionCells(whole, comm->getSize()), comm->getRank(), 3);
+  TpetraExchange exchange = {comm, mesh};
+};
+
 class ExchangeState : public ::testing::TestWithParam<Kinematics>
 {
 };
@@ -122,11 +140,9 @@ class ExchangeState : public ::testing::TestWithParam<Kinematics>
 /// The halo is as deep as the exchange, so that the local mesh holds the truth everywhere afterwards.
 TEST_P(ExchangeState, spoiltHalo_isTheTruthAgainBitForBit)
 {
-  auto const comm = Tpetra::getDefaultComm();
-  HostMesh const whole = rectilinearMesh(gradedCoordinates(0.0, 1.0, nx, 1.0), gradedCoordinates(0.0, 1.0, ny, 1.0));
-  std::vector<int> const owner = partitionCells(whole, comm->getSize());
-  Mesh const mesh = buildLocalMesh(whole, owner, comm->getRank(), 3);
-  TpetraExchange const exchange(comm, mesh);
+  Setting const setting;
+  Mesh const &mesh = setting.mesh;
+  TpetraExchange const &exchange = setting.exchange;
   Fields f = makeFields(mesh, GetParam(), true);
   Fields const truth = makeFields(mesh, GetParam(), false);
   exchangeState(mesh, GetParam(), exchange, 3, f.pairs, f.dof_nodes, f.state);
@@ -147,10 +163,9 @@ TEST_P(ExchangeState, spoiltHalo_isTheTruthAgainBitForBit)
 /// Where the halo's materials are right its values are overwritten in place: views stay.
 TEST_P(ExchangeState, haloOfWrongValues_isOverwrittenInPlaceBitForBit)
 {
-  auto const comm = Tpetra::getDefaultComm();
-  HostMesh const whole = rectilinearMesh(gradedCoordinates(0.0, 1.0, nx, 1.0), gradedCoordinates(0.0, 1.0, ny, 1.0));
-  Mesh const mesh = buildLocalMesh(whole, partitionCells(whole, comm->getSize()), comm->getRank(), 3);
-  TpetraExchange const exchange(comm, mesh);
+  Setting const setting;
+  Mesh const &mesh = setting.mesh;
+  TpetraExchange const &exchange = setting.exchange;
   Fields f = makeFields(mesh, GetParam(), false);
   Fields const truth = makeFields(mesh, GetParam(), false);
   Fields const before = f;
@@ -163,11 +178,7 @@ TEST_P(ExchangeState, haloOfWrongValues_isOverwrittenInPlaceBitForBit)
         f.state.centroid(pair, 0) = f.state.centroid(pair, 1) = -9.0;
         f.pairs.cell_kind(f.pairs.cell(pair)) = VoidCell;
       });
-  Kokkos::parallel_for(
-      "spoilVelocities", RangePolicy(0, f.dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
-        if (mesh.node_depth(f.dof_nodes.node(dof)) > 0)
-          f.state.velocity(dof, 0) = f.state.velocity(dof, 1) = -9.0;
-      });
+  spoilHaloVelocities(mesh, f.dof_nodes, f.state.velocity);
   exchangeState(mesh, GetParam(), exchange, 3, f.pairs, f.dof_nodes, f.state);
   EXPECT_EQ(f.state.record.data(), before.state.record.data());
   expectSame(f.pairs.cell_kind, truth.pairs.cell_kind, "cell_kind");
@@ -179,18 +190,13 @@ TEST_P(ExchangeState, haloOfWrongValues_isOverwrittenInPlaceBitForBit)
 /// What the rim of a halo computes lacks neighbours; owners know better.
 TEST_P(ExchangeState, spoiltHaloVelocities_areTheOwnersAgainBitForBit)
 {
-  auto const comm = Tpetra::getDefaultComm();
-  HostMesh const whole = rectilinearMesh(gradedCoordinates(0.0, 1.0, nx, 1.0), gradedCoordinates(0.0, 1.0, ny, 1.0));
-  Mesh const mesh = buildLocalMesh(whole, partitionCells(whole, comm->getSize()), comm->getRank(), 3);
-  TpetraExchange const exchange(comm, mesh);
+  Setting const setting;
+  Mesh const &mesh = setting.mesh;
+  TpetraExchange const &exchange = setting.exchange;
   Fields const truth = makeFields(mesh, GetParam(), false);
   View<double *[2]> const velocity("velocity", truth.dof_nodes.num_dof_nodes);
   Kokkos::deep_copy(velocity, truth.state.velocity);
-  Kokkos::parallel_for(
-      "spoil", RangePolicy(0, truth.dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
-        if (mesh.node_depth(truth.dof_nodes.node(dof)) > 0)
-          velocity(dof, 0) = velocity(dof, 1) = -9.0;
-      });
+  spoilHaloVelocities(mesh, truth.dof_nodes, velocity);
   exchangeDofVelocities(exchange, mesh.halo, truth.pairs, velocity);
   expectSame(velocity, truth.state.velocity, "velocity");
 }
@@ -199,12 +205,9 @@ INSTANTIATE_TEST_SUITE_P(Kinematics, ExchangeState, ::testing::Values(Kinematics
 
 TEST(ExchangeStateDepth, exchangeShallowerThanTheHalo_deeperCellsAreEmpty)
 {
-  auto const comm = Tpetra::getDefaultComm();
-  if (comm->getSize() == 1)
-    GTEST_SKIP() << "for two ranks or more: one rank has no halo, hence no cells deeper than the exchange";
-  HostMesh const whole = rectilinearMesh(gradedCoordinates(0.0, 1.0, nx, 1.0), gradedCoordinates(0.0, 1.0, ny, 1.0));
-  Mesh const mesh = buildLocalMesh(whole, partitionCells(whole, comm->getSize()), comm->getRank(), 3);
-  TpetraExchange const exchange(comm, mesh);
+  Setting const setting;
+  Mesh const &mesh = setting.mesh;
+  TpetraExchange const &exchange = setting.exchange;
   Fields f = makeFields(mesh, Kinematics::Xfem, true);
   exchangeState(mesh, Kinematics::Xfem, exchange, 1, f.pairs, f.dof_nodes, f.state);
   auto const offset = onHost(f.pairs.offset);

@@ -170,6 +170,15 @@ struct PolynomialFinder
     return any;
   }
 
+  /// What the same material holds in item j of the cells' neighbours; false where that is nothing.
+  KOKKOS_INLINE_FUNCTION bool findNeighbour(int j, int material, Neighbour &n) const
+  {
+    int const cell = in.mesh.cell_neighbour.item(j);
+    int const index = classes.interface_index(cell);
+    int const rotation = in.links.rotation(j);
+    return index >= 0 ? fromDonor(index, material, rotation, n) : fromCell(cell, material, rotation, n);
+  }
+
   /// Least-squares gradient weighted by filled part over distance squared; along a line where all neighbours lie on
   /// one. Widens the range by the neighbours' values.
   KOKKOS_INLINE_FUNCTION void gradient(int cell, int material, Vector2 const &centroid, StageFields const &q,
@@ -179,11 +188,8 @@ struct PolynomialFinder
     StageFields bx = stageFields(0.0), by = stageFields(0.0);
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
     {
-      int const neighbour = in.mesh.cell_neighbour.item(j);
-      int const index = classes.interface_index(neighbour);
-      int const rotation = in.links.rotation(j);
       Neighbour n;
-      if (!(index >= 0 ? fromDonor(index, material, rotation, n) : fromCell(neighbour, material, rotation, n)))
+      if (!findNeighbour(j, material, n))
         continue;
       Vector2 const d = n.centroid - centroid;
       double const distance2 = dot(d, d);
@@ -194,7 +200,8 @@ struct PolynomialFinder
       xy += w * d[0] * d[1];
       yy += w * d[1] * d[1];
       StageFields const difference = n.value - q;
-      if (in.options.limiter == RemapLimiter::VanLeer && isBeyondFace(cell, neighbour) && beyond.size < 4)
+      if (in.options.limiter == RemapLimiter::VanLeer && isBeyondFace(cell, in.mesh.cell_neighbour.item(j)) &&
+          beyond.size < 4)
       {
         beyond.offset[beyond.size] = d;
         beyond.difference[beyond.size++] = difference;

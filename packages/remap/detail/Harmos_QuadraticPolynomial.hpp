@@ -131,17 +131,15 @@ struct QuadraticFinder : PolynomialFinder
       fit.right[i] = stageFields(0.0);
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
     {
-      int const neighbour = in.mesh.cell_neighbour.item(j);
-      int const index = classes.interface_index(neighbour);
-      int const rotation = in.links.rotation(j);
       Neighbour n;
-      if (!(index >= 0 ? fromDonor(index, material, rotation, n) : fromCell(neighbour, material, rotation, n)))
+      if (!findNeighbour(j, material, n))
         continue;
       Vector2 const d = n.centroid - centroid;
       if (!(dot(d, d) > 0.0))
         continue;
       double s[3];
-      spread(neighbour, index, material, s);
+      int const neighbour = in.mesh.cell_neighbour.item(j);
+      spread(neighbour, classes.interface_index(neighbour), material, s);
       addNeighbour(fit, n, s, d, q);
     }
   }

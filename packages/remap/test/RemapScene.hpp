@@ -315,6 +315,42 @@ inline double largestSumOfFractions(Mesh const &mesh, RemapResult const &result)
   return largest;
 }
 
+/// A smooth field for every material.
+inline double wave(int material, Vector2 const &x)
+{
+  return 1.0 + material + 0.4 * std::sin(7.0 * x[0]) * std::cos(5.0 * x[1]);
+}
+
+/// Numbers of values in which the owned cells of a part differ from the same cells of the whole: materials, records,
+/// velocities.
+inline long long differences(Scene const &part, RemapResult const &a, RemapResult const &b)
+{
+  long long count = 0;
+  for (int cell = 0; cell < part.mesh.num_cells; ++cell)
+  {
+    if (part.mesh.cell_depth(cell) != 0)
+      continue;
+    int const global = static_cast<int>(part.mesh.cell_global(cell));
+    int const pairs = a.pairs.offset(cell + 1) - a.pairs.offset(cell);
+    if (pairs != b.pairs.offset(global + 1) - b.pairs.offset(global))
+    {
+      ++count;
+      continue;
+    }
+    for (int i = 0; i < pairs; ++i)
+    {
+      int const pa = a.pairs.offset(cell) + i, pb = b.pairs.offset(global) + i;
+      count += a.pairs.material(pa) != b.pairs.material(pb);
+      for (int f = 0; f < num_pair_fields; ++f)
+        count += a.state.record(pa, f) != b.state.record(pb, f);
+      for (int k = 0; k < 4; ++k)
+        for (int d = 0; d < 2; ++d)
+          count += a.state.velocity(a.pairs.dof_node(pa, k), d) != b.state.velocity(b.pairs.dof_node(pb, k), d);
+    }
+  }
+  return count;
+}
+
 inline std::vector<Material> twoLaws()
 {
   Material a, b;

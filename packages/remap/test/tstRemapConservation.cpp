@@ -9,10 +9,6 @@ using namespace Harmos::Test;
 namespace
 {
 
-double wave(int material, Vector2 const &x)
-{
-  return 1.0 + material + 0.4 * std::sin(7.0 * x[0]) * std::cos(5.0 * x[1]);
-}
 double heat(int material, Vector2 const &x)
 {
   return 2.0 + 0.5 * material + std::cos(4.0 * x[0] + 3.0 * x[1]);
