@@ -6,6 +6,9 @@
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_MeshBuilder.hpp>
 
+#include <gtest/gtest.h>
+
+#include <cmath>
 #include <functional>
 #include <random>
 #include <vector>
@@ -98,6 +101,31 @@ struct Scene
     return sum;
   }
 };
+
+/// The corner forces f(pair, 8) of each pair leave its momentum and its angular momentum alone.
+template <class HostForces>
+void expectBalanced(Scene const &s, HostForces const &f, double force_error, double moment_error)
+{
+  auto const cell = onHost(s.pairs.cell);
+  auto const cell_node = onHost(s.mesh.cell_node);
+  auto const x = onHost(s.mesh.node_position);
+  for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
+  {
+    double fx = 0.0, fy = 0.0, moment = 0.0, size = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const n = cell_node(cell(pair), k);
+      fx += f(pair, 2 * k);
+      fy += f(pair, 2 * k + 1);
+      moment += x(n, 0) * f(pair, 2 * k + 1) - x(n, 1) * f(pair, 2 * k);
+      size += std::fabs(f(pair, 2 * k)) + std::fabs(f(pair, 2 * k + 1));
+    }
+    EXPECT_GT(size, 0.0);
+    EXPECT_NEAR(fx, 0.0, force_error * size);
+    EXPECT_NEAR(fy, 0.0, force_error * size);
+    EXPECT_NEAR(moment, 0.0, moment_error * size);
+  }
+}
 
 inline Material elastic()
 {

@@ -65,25 +65,7 @@ TEST(CornerForces, AnyState_hasNoForceAndNoMoment)
                       });
   disturb(s, 1);
   auto const f = forces(s);
-  auto const cell = onHost(s.pairs.cell);
-  auto const cell_node = onHost(s.mesh.cell_node);
-  auto const x = onHost(s.mesh.node_position);
-  for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
-  {
-    double fx = 0.0, fy = 0.0, moment = 0.0, size = 0.0;
-    for (int k = 0; k < 4; ++k)
-    {
-      int const n = cell_node(cell(pair), k);
-      fx += f(pair, 2 * k);
-      fy += f(pair, 2 * k + 1);
-      moment += x(n, 0) * f(pair, 2 * k + 1) - x(n, 1) * f(pair, 2 * k);
-      size += std::fabs(f(pair, 2 * k)) + std::fabs(f(pair, 2 * k + 1));
-    }
-    EXPECT_GT(size, 0.0);
-    EXPECT_NEAR(fx, 0.0, 1e-15 * size);
-    EXPECT_NEAR(fy, 0.0, 1e-15 * size);
-    EXPECT_NEAR(moment, 0.0, 2e-14 * size);
-  }
+  expectBalanced(s, f, 1e-15, 2e-14);
 }
 
 TEST(CornerForces, LinearExpandingVelocity_feelsNoHourglassAndNoViscosity)

@@ -83,24 +83,7 @@ TEST(SubzonalPressure, AnyMotion_hasNoForceAndNoMoment)
   auto const fraction = subzoneFractions(s.mesh);
   moveNodes(s, [](Vector2 x) { return Vector2{x[0] + 0.02 * x[0] * x[1], x[1] - 0.03 * x[0] * x[1]}; });
   auto const f = subzonalForces(s, fraction, 1.0);
-  auto const cell_node = onHost(s.mesh.cell_node);
-  auto const x = onHost(s.mesh.node_position);
-  for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
-  {
-    double fx = 0.0, fy = 0.0, moment = 0.0, size = 0.0;
-    for (int k = 0; k < 4; ++k)
-    {
-      int const n = cell_node(pair, k);
-      fx += f(pair, 2 * k);
-      fy += f(pair, 2 * k + 1);
-      moment += x(n, 0) * f(pair, 2 * k + 1) - x(n, 1) * f(pair, 2 * k);
-      size += std::fabs(f(pair, 2 * k)) + std::fabs(f(pair, 2 * k + 1));
-    }
-    EXPECT_GT(size, 0.0);
-    EXPECT_NEAR(fx, 0.0, 1e-14 * size);
-    EXPECT_NEAR(fy, 0.0, 1e-14 * size);
-    EXPECT_NEAR(moment, 0.0, 1e-13 * size);
-  }
+  expectBalanced(s, f, 1e-14, 1e-13);
 }
 
 TEST(SubzonalPressure, Wedge_isPushedOpenByTheStatedPressure)
