@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 include(GNUInstallDirs)
 
-# harmos_add_package(<name> [SOURCES ...])
-# Library harmos_<name> (alias Harmos::<name>) in the current folder. Without SOURCES: an interface library.
-# It links what cmake/Dependencies.cmake names.
+# harmos_add_package(<name> [SOURCES ...] [HEADERS ...])
+# Library harmos_<name> (alias Harmos::<name>) in the current folder; it links what cmake/Dependencies.cmake names.
+# Without SOURCES: an interface library. Installs HEADERS, or all headers of the folder.
 function(harmos_add_package name)
-  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
-  set(target harmos_${name})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS" ${ARGN})
   harmos_package_links(links)
+  set(target harmos_${name})
   if(ARG_SOURCES)
     add_library(${target} ${ARG_SOURCES})
     set(scope PUBLIC)
@@ -23,56 +23,10 @@ function(harmos_add_package name)
   target_compile_features(${target} ${scope} cxx_std_17)
   target_link_libraries(${target} ${scope} ${links})
   install(TARGETS ${target} EXPORT HarmosTargets)
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/harmos
-    FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN bench EXCLUDE PATTERN cmake EXCLUDE)
-endfunction()
-
-# The main() of all tests, compiled once: harmos_test_main sets up Kokkos, harmos_test_main_mpi MPI as well.
-function(harmos_add_test_mains)
-  add_library(harmos_test_main OBJECT ${PROJECT_SOURCE_DIR}/cmake/TestMain.cpp)
-  target_link_libraries(harmos_test_main PUBLIC GTest::gtest Kokkos::kokkos)
-  if(HARMOS_ENABLE_TRILINOS)
-    add_library(harmos_test_main_mpi OBJECT ${PROJECT_SOURCE_DIR}/cmake/TestMainMpi.cpp)
-    target_link_libraries(harmos_test_main_mpi PUBLIC GTest::gtest Harmos::Trilinos)
-  endif()
-endfunction()
-
-# harmos_add_test(<name> SOURCES ... [LINK ...] [LABELS ...] [RANKS n ...])
-# One GoogleTest executable with Kokkos set up by main; with RANKS, run by mpiexec on each number of ranks.
-# Labels: unit by default, mpi with RANKS.
-function(harmos_add_test name)
-  if(NOT HARMOS_ENABLE_TESTS)
-    return()
-  endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS;RANKS" ${ARGN})
-  if(NOT ARG_LABELS AND ARG_RANKS)
-    set(ARG_LABELS mpi)
-  elseif(NOT ARG_LABELS)
-    set(ARG_LABELS unit)
-  endif()
-  add_executable(${name} ${ARG_SOURCES})
-  target_compile_options(${name} PRIVATE -Wall -Wextra $<$<BOOL:${HARMOS_WARNINGS_AS_ERRORS}>:-Werror>)
-  if(ARG_RANKS)
-    target_link_libraries(${name} PRIVATE ${ARG_LINK} harmos_test_main_mpi)
-    foreach(ranks IN LISTS ARG_RANKS)
-      add_test(NAME ${name}_${ranks}
-               COMMAND ${MPIEXEC_EXECUTABLE} ${HARMOS_MPIEXEC_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
-                       $<TARGET_FILE:${name}>)
-      set_tests_properties(${name}_${ranks} PROPERTIES LABELS "${ARG_LABELS}" PROCESSORS ${ranks} TIMEOUT 600)
-    endforeach()
+  if(ARG_HEADERS)
+    install(FILES ${ARG_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/harmos)
   else()
-    target_link_libraries(${name} PRIVATE ${ARG_LINK} harmos_test_main)
-    add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+    install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/harmos
+      FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN bench EXCLUDE PATTERN cmake EXCLUDE)
   endif()
-endfunction()
-
-# harmos_add_benchmark(<name> SOURCES ... [LINK ...])
-function(harmos_add_benchmark name)
-  if(NOT HARMOS_ENABLE_BENCHMARKS)
-    return()
-  endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/cmake/BenchmarkMain.cpp)
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} benchmark::benchmark)
 endfunction()

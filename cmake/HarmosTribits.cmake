@@ -4,31 +4,27 @@
 # Keeps what a Dependencies.cmake says as HARMOS_DECLARED_<keyword>, for the two functions below.
 macro(tribits_package_define_dependencies)
   cmake_parse_arguments(HARMOS_DECLARED "" ""
-    "SUBPACKAGES_DIRS_CLASSIFICATIONS_OPTREQS;LIB_REQUIRED_PACKAGES;LIB_REQUIRED_TPLS" ${ARGN})
+    "SUBPACKAGES_DIRS_CLASSIFICATIONS_OPTREQS;LIB_REQUIRED_PACKAGES;LIB_OPTIONAL_PACKAGES;LIB_REQUIRED_TPLS" ${ARGN})
   if(HARMOS_DECLARED_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "${CMAKE_CURRENT_LIST_FILE}: '${HARMOS_DECLARED_UNPARSED_ARGUMENTS}' is not read here")
   endif()
 endmacro()
 
-# harmos_package_folders(<kernels> <above>): the folders of the packages, in order; those above the kernels need Trilinos.
-function(harmos_package_folders kernels above)
-  include(${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake)
+# harmos_package_folders(<folders>): the folders of the packages, in order; the OPTIONAL ones need Trilinos.
+function(harmos_package_folders result)
+  include(${Harmos_SOURCE_DIR}/cmake/Dependencies.cmake)
   set(entries ${HARMOS_DECLARED_SUBPACKAGES_DIRS_CLASSIFICATIONS_OPTREQS})
-  set(required "")
-  set(optional "")
+  set(folders "")
   while(entries)
     list(POP_FRONT entries name folder classification need)
-    if(need STREQUAL "REQUIRED")
-      list(APPEND required ${folder})
-    else()
-      list(APPEND optional ${folder})
+    if(need STREQUAL "REQUIRED" OR HARMOS_ENABLE_TRILINOS)
+      list(APPEND folders ${folder})
     endif()
   endwhile()
-  set(${kernels} ${required} PARENT_SCOPE)
-  set(${above} ${optional} PARENT_SCOPE)
+  set(${result} ${folders} PARENT_SCOPE)
 endfunction()
 
-# harmos_package_links(<result>): the targets that the package in the current folder uses.
+# harmos_package_links(<result>): the targets that the package in the current folder needs.
 function(harmos_package_links result)
   include(${CMAKE_CURRENT_SOURCE_DIR}/cmake/Dependencies.cmake)
   set(links "")

@@ -24,6 +24,14 @@ void Ledger::noteErrors(double mass_error, double momentum_error, double energy_
     largest_energy_error = std::max(largest_energy_error, std::fabs(energy_error) / largest_energy);
 }
 
+void Ledger::noteAngularMomentum(double angular_momentum, double moment)
+{
+  largest_moment = std::max(largest_moment, moment);
+  if (largest_moment > 0.0)
+    largest_angular_drift =
+        std::max(largest_angular_drift, std::fabs(angular_momentum - angular_momentum0) / largest_moment);
+}
+
 std::vector<double> Ledger::values() const
 {
   std::vector<double> v(sizeof(Ledger) / sizeof(double));

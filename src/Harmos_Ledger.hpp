@@ -18,6 +18,7 @@ struct Ledger
   double energy0 = 0.0;
   double mass0 = 0.0;
   double momentum0_x = 0.0, momentum0_y = 0.0;
+  double angular_momentum0 = 0.0; // about the origin [N s]
   double external_work = 0.0;
   double contact_loss = 0.0;
   double remap_loss = 0.0;
@@ -41,9 +42,15 @@ struct Ledger
   double out_of_range = 0.0;          // pair steps outside of the equation of state's range
   double unfinished_interfaces = 0.0; // mixed cells, summed over cycles, whose line's angle met its bound of iterations
   double restored_volume = 0.0;       // prescribed field: sum of |volume given back| [m^2]
+  double returned_heat = 0.0;         // kinetic energy that the remap turned into internal energy [J/m]
+  double largest_angular_drift = 0.0; // |L - L0|, over largest_moment [1]
+  double largest_moment = 0.0;        // sum m |x| |v| [N s]
 
   /// Keep the largest errors. \param energy_error [J/m] \param energy Kinetic + internal now.
   void noteErrors(double mass_error, double momentum_error, double energy_error, double energy, double speed_momentum);
+
+  /// Keep the largest drift of the angular momentum, relative to the largest sum m |x| |v| of the run so far.
+  void noteAngularMomentum(double angular_momentum, double moment);
 
   /// All values in the order of declaration, for checkpoints.
   std::vector<double> values() const;

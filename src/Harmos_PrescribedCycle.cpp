@@ -85,6 +85,42 @@ void setPrescribedVelocities(Scene const &scene, CycleState &s)
       });
 }
 
+SideCrossing findSideCrossing(Scene const &scene, CycleState const &s)
+{
+  constexpr double tolerance = 1e-10; // of the face
+  Mesh const mesh = scene.mesh;
+  auto const pairs = s.pairs;
+  PrescribedField const field = scene.prescribed;
+  double const t = s.time, dt = s.dt;
+  int first = mesh.num_cells;
+  Kokkos::parallel_reduce(
+      "Harmos::findSideCrossing", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &least) {
+        if (pairs.offset(cell) == pairs.offset(cell + 1) || mesh.cell_depth(cell) != 0 || cell >= least)
+          return;
+        Quadrilateral const q = cellQuadrilateral(mesh, cell);
+        for (int face = 0; face < 4; ++face)
+        {
+          if (mesh.face_boundary(cell, face) < 0)
+            continue;
+          Vector2 const a = q[face], b = q[(face + 1) % 4], edge = b - a;
+          double const across = Math::max(Math::fabs(cross(edge, field.displacement(a, t, dt))),
+                                          Math::fabs(cross(edge, field.displacement(b, t, dt))));
+          if (across > tolerance * dot(edge, edge))
+            least = cell;
+        }
+      },
+      Kokkos::Min<int>(first));
+  SideCrossing crossing;
+  if (first >= mesh.num_cells)
+    return crossing;
+  int pair = 0;
+  crossing.cell = first;
+  Kokkos::deep_copy(pair, Kokkos::subview(pairs.offset, first));
+  Kokkos::deep_copy(crossing.material, Kokkos::subview(pairs.material, pair));
+  return crossing;
+}
+
 CycleReport advancePrescribed(Scene const &scene, CycleState &s, PhaseTimes &times)
 {
   Exchange const &exchange = *scene.exchange;
@@ -92,6 +128,11 @@ CycleReport advancePrescribed(Scene const &scene, CycleState &s, PhaseTimes &tim
   int const materials = static_cast<int>(scene.materials.extent(0));
   CycleReport report;
   report.dt = s.dt;
+  SideCrossing const crossing = findSideCrossing(scene, s);
+  report.crossing_cell = crossing.cell;
+  report.crossing_material = crossing.material;
+  if (exchange.max(crossing.cell >= 0 ? 1.0 : 0.0) > 0.0)
+    return report;
   Motion const before = motionOf(scene, s);
   std::vector<double> const volume = materialVolumes(mesh, s.pairs, s.state.record, materials, exchange);
   {

@@ -2,6 +2,7 @@
 #include "Harmos_RemapStudy.hpp"
 
 #include "Harmos_RemapComparators.hpp"
+#include "Harmos_RemapField.hpp"
 #include "Harmos_TimeStep.hpp"
 
 #include <Harmos_HostMesh.hpp>
@@ -34,7 +35,19 @@ struct StudyRow
   double courant = 0.0;            // displacement of a node over the smallest altitude around, largest
   double seconds = 0.0;            // wall clock in remap(), the slowest rank
   double cpu_seconds = 0.0;        // the same of the processors, all ranks
+  // of the vortex that the material carries along: all steps, relative; not a number where nothing carries it
+  double momentum = std::nan("");         // |change - wall impulse| over sum m |v| at the start, largest
+  double angular_momentum = std::nan(""); // change over that at the start, largest
+  double kinetic_energy = std::nan("");   // part that is left at the end
 };
+
+/// A vortex in the unit square that is at rest on its sides: P = 0, L > 0.
+PrescribedField vortex()
+{
+  PrescribedField field;
+  field.kind = FieldKind::Vortex;
+  return field;
+}
 
 /// A field on a mesh that moves.
 struct Study
@@ -48,70 +61,8 @@ struct Study
   BoundaryConditions conditions;
   View<Material *> materials;
   RemapWork work;
+  Vector2 wall_impulse = {0.0, 0.0}; // all steps [N s/m]
 };
-
-double fieldAt(RemapField const &field, Vector2 const &x)
-{
-  if (field.shock)
-    return x[1] > (x[0] - 0.4) / 0.3 ? 0.0 : 1.0;
-  return field.base + std::sin(2.0 * Math::pi * x[0]) * std::sin(2.0 * Math::pi * x[1]);
-}
-
-/// Nodes and weights of Gauss' rule on [0, 1], by Newton's method for the zeros of the Legendre polynomial.
-void gaussRule(int n, std::vector<double> &point, std::vector<double> &weight)
-{
-  for (int i = 0; i < n; ++i)
-  {
-    double x = std::cos(Math::pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
-    for (int iteration = 0; iteration < 50; ++iteration)
-    {
-      double p0 = 1.0, p1 = x;
-      for (int k = 2; k <= n; ++k)
-      {
-        double const p2 = ((2.0 * k - 1.0) * x * p1 - (k - 1.0) * p0) / k;
-        p0 = p1;
-        p1 = p2;
-      }
-      slope = n * (x * p1 - p0) / (x * x - 1.0);
-      x -= p1 / slope;
-    }
-    point.push_back(0.5 * (1.0 - x));
-    weight.push_back(1.0 / ((1.0 - x * x) * slope * slope));
-  }
-}
-
-/// Cell averages of the field: 2 x 2 Gauss points for the sine, 16 x 16 for the shock.
-View<double *> averages(RemapField const &field, Mesh const &mesh)
-{
-  std::vector<double> point, weight;
-  gaussRule(field.shock ? 16 : 2, point, weight);
-  View<double *> const value("Harmos::averages", mesh.num_cells);
-  auto const host = Kokkos::create_mirror_view(value);
-  auto const position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
-  auto const node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_node);
-  for (int cell = 0; cell < mesh.num_cells; ++cell)
-  {
-    Vector2 q[4];
-    for (int k = 0; k < 4; ++k)
-      q[k] = {position(node(cell, k), 0), position(node(cell, k), 1)};
-    double sum = 0.0, volume = 0.0;
-    for (std::size_t i = 0; i < point.size(); ++i)
-      for (std::size_t j = 0; j < point.size(); ++j)
-      {
-        double N[4];
-        shapeFunctions({point[i], point[j]}, N);
-        Vector2 const x = (N[0] * q[0] + N[1] * q[1]) + (N[2] * q[2] + N[3] * q[3]);
-        Vector2 const along = (1.0 - point[j]) * (q[1] - q[0]) + point[j] * (q[2] - q[3]);
-        Vector2 const up = (1.0 - point[i]) * (q[3] - q[0]) + point[i] * (q[2] - q[1]);
-        double const w = weight[i] * weight[j] * cross(along, up);
-        sum += w * fieldAt(field, x);
-        volume += w;
-      }
-    host(cell) = sum / volume;
-  }
-  Kokkos::deep_copy(value, host);
-  return value;
-}
 
 /// Nodes of `mesh` at their places after a step.
 void placeNodes(MeshMotion const &motion, int cells, int step, int steps, View<double *[2]> const &reference,
@@ -157,7 +108,7 @@ Study makeStudy(Mesh const &mesh, RemapDeck const &deck)
   s.state.centroid = View<double *[2]>("centroid", mesh.num_cells);
   s.regions.cell_region = View<int *>("cell_region", mesh.num_cells);
   Kokkos::deep_copy(s.regions.cell_region, -1);
-  View<double *> const f = averages(deck.field, mesh);
+  View<double *> const f = cellAverages(deck.field, mesh);
   auto const pairs = s.pairs;
   auto const record = s.state.record;
   bool const density = deck.field.density;
@@ -174,6 +125,16 @@ Study makeStudy(Mesh const &mesh, RemapDeck const &deck)
       });
   s.dof_nodes = buildDofNodes(mesh, Kinematics::Xfem, s.state.record, s.pairs);
   s.state.velocity = View<double *[2]>("velocity", s.dof_nodes.num_dof_nodes);
+  auto const velocity = s.state.velocity;
+  auto const dof_nodes = s.dof_nodes;
+  PrescribedField const swirl = vortex();
+  Kokkos::parallel_for(
+      "Harmos::swirl", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+        int const node = dof_nodes.node(dof);
+        Vector2 const v = swirl.velocityAt({mesh.node_position(node, 0), mesh.node_position(node, 1)}, 0.0);
+        velocity(dof, 0) = v[0];
+        velocity(dof, 1) = v[1];
+      });
   return s;
 }
 
@@ -225,6 +186,33 @@ Sums sumsOf(Mesh const &mesh, View<double *> const &value, View<double *> const 
   return {sums[0], sums[1], std::sqrt(sums[2]), exchange.max(linf), exchange.min(low), exchange.max(high)};
 }
 
+/// Of the vortex, over owned cells of all ranks, and the walls' impulse on it. Collective.
+struct Swirl
+{
+  Vector2 momentum, wall_impulse;
+  double angular_momentum, kinetic_energy, mass;
+};
+
+Swirl swirlOf(Study const &s, Exchange const &exchange)
+{
+  MaterialSums const m = materialSums(s.mesh, s.pairs, s.state.record, s.state.velocity, 1);
+  double sums[7] = {m(0, SumMomentumX), m(0, SumMomentumY), m(0, SumAngularMomentum), m(0, SumKineticEnergy),
+                    m(0, SumMass),      s.wall_impulse[0],  s.wall_impulse[1]};
+  exchange.sum(sums, 7);
+  return {{sums[0], sums[1]}, {sums[5], sums[6]}, sums[2], sums[3], sums[4]};
+}
+
+void noteSwirl(Swirl const &before, Swirl const &now, StudyRow &row)
+{
+  Vector2 const change = (now.momentum - before.momentum) - now.wall_impulse;
+  // sum m |v| <= root of (2 E_kin m)
+  double const scale = std::sqrt(2.0 * before.kinetic_energy * before.mass);
+  row.momentum = std::fmax(row.momentum, norm(change) / scale);
+  row.angular_momentum =
+      std::fmax(row.angular_momentum, std::fabs(now.angular_momentum / before.angular_momentum - 1.0));
+  row.kinetic_energy = now.kinetic_energy / before.kinetic_energy;
+}
+
 /// Largest displacement of a node over the smallest altitude of the cells around, on either mesh.
 double courantOf(Mesh const &from, Mesh const &to)
 {
@@ -265,8 +253,9 @@ void stepByRemap(Study &s, RemapDeck const &deck, Exchange const &exchange, Stud
   auto const once = [&]
   {
     report = {};
+    // The material rests: dt = 0. Its velocity is one more field.
     result = remap(s.next, Kinematics::Xfem, s.pairs, s.dof_nodes, s.state, s.regions, s.conditions, s.materials,
-                   s.state.velocity, 1.0, {}, options, report, s.work, s.mesh.node_position);
+                   s.state.velocity, 0.0, {}, options, report, s.work, s.mesh.node_position);
     Kokkos::fence();
   };
   if (!s.work.kept)
@@ -277,6 +266,7 @@ void stepByRemap(Study &s, RemapDeck const &deck, Exchange const &exchange, Stud
   row.seconds += timer.seconds();
   row.cpu_seconds += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   require(report.failures == 0, exchange, "remap: a cell left its neighbourhood; expected: more steps");
+  s.wall_impulse += report.wall_impulse;
   s.pairs = result.pairs;
   s.dof_nodes = result.dof_nodes;
   s.state = result.state;
@@ -315,6 +305,7 @@ StudyRow runOne(RemapDeck const &deck, int cells, Teuchos::RCP<Teuchos::Comm<int
   row.steps = deck.stepsOf(cells);
   View<double *> const start = valuesOf(s, deck.field.density);
   Sums const before = sumsOf(s.mesh, start, start, exchange);
+  Swirl const swirl = swirlOf(s, exchange);
   for (int step = 1; step <= row.steps; ++step)
   {
     placeNodes(deck.motion, cells, step, row.steps, s.reference, s.next);
@@ -325,12 +316,14 @@ StudyRow runOne(RemapDeck const &deck, int cells, Teuchos::RCP<Teuchos::Comm<int
     else
       stepByComparator(s, deck, row);
     std::swap(s.mesh, s.next);
+    if (deck.scheme == RemapScheme::Swept || deck.scheme == RemapScheme::Intersection)
+      noteSwirl(swirl, swirlOf(s, exchange), row);
     Sums const now = sumsOf(s.mesh, valuesOf(s, deck.field.density), start, exchange);
     row.conservation = std::max(row.conservation, std::fabs(now.total - before.total) / std::fabs(before.total));
     row.below = std::max(row.below, before.low - now.low);
     row.above = std::max(row.above, now.high - before.high);
   }
-  Sums const after = sumsOf(s.mesh, valuesOf(s, deck.field.density), averages(deck.field, s.mesh), exchange);
+  Sums const after = sumsOf(s.mesh, valuesOf(s, deck.field.density), cellAverages(deck.field, s.mesh), exchange);
   row.l1 = after.l1;
   row.l2 = after.l2;
   row.linf = after.linf;
@@ -378,7 +371,10 @@ std::vector<double> columnsOf(StudyRow const &row, StudyRow const *coarser)
           row.above,
           row.seconds,
           row.cpu_seconds,
-          1e9 * row.cpu_seconds / (static_cast<double>(row.cells) * row.cells * row.steps)};
+          1e9 * row.cpu_seconds / (static_cast<double>(row.cells) * row.cells * row.steps),
+          row.momentum,
+          row.angular_momentum,
+          row.kinetic_energy};
 }
 
 } // namespace
@@ -404,7 +400,7 @@ ExitStatus studyRemap(RemapDeck const &deck, RunOptions const &options,
                 "Linf", "order", "order", "order", "conserved", "below", "above", "ns/cell");
     file.open(std::filesystem::path(options.directory) / "remap.csv");
     file << "cells,steps,courant,L1,L2,Linf,order_L1,order_L2,order_Linf,conservation,below,above,seconds,cpu_seconds,"
-            "cpu_ns_per_cell_step\n";
+            "cpu_ns_per_cell_step,momentum,angular_momentum,kinetic_energy\n";
     std::ofstream(std::filesystem::path(options.directory) / "deck.json") << deck.json << "\n";
   }
   std::vector<StudyRow> rows;

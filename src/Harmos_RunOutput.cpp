@@ -146,6 +146,7 @@ void RunOutput::writeHistory(Scene const &scene, CycleState const &state, CycleR
   LedgerErrors const errors = ledgerErrors(ledger, totals);
   ledger.noteErrors(errors.mass, errors.momentum, errors.energy, totals.kinetic_energy + totals.internal_energy,
                     totals.speed_momentum);
+  ledger.noteAngularMomentum(totals.angular_momentum, totals.moment);
 
   HistoryRow row;
   row.cycle = state.cycle;
@@ -175,6 +176,7 @@ void RunOutput::writeHistory(Scene const &scene, CycleState const &state, CycleR
   row.iterations = report.constraint.iterations;
   row.residual = report.constraint.residual;
   row.material = totals.material;
+  row.returned_heat = ledger.returned_heat;
   history_.write(row);
 }
 
@@ -210,7 +212,7 @@ void RunOutput::writeProbes(Scene const &scene, CycleState const &state)
   std::vector<Vector2> points;
   for (PointSpec const &probe : deck_.probes)
     points.push_back(probe.position);
-  if (probe_cell_.empty() || scene.kinematics == Kinematics::Lagrangian)
+  if (probe_cell_.empty() || scene.kinematics == Kinematics::Lagrangian || scene.target_mesh)
     probe_cell_ = locatePoints(scene.mesh, points, *scene.exchange);
   std::vector<PointSample> const samples =
       samplePoints(pointField(scene, state), points, probe_cell_, std::vector<int>(points.size(), -1), *scene.exchange);
@@ -262,6 +264,7 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   scalars.time = state.time;
   scalars.dt = state.dt;
   scalars.kinematics = scene.kinematics;
+  scalars.moving_mesh = static_cast<bool>(scene.target_mesh);
   scalars.material_names = all_names_;
   scalars.bodies = state.bodies;
   scalars.arrays["ledger"] = ledger.values();

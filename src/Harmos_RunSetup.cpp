@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_Run.hpp"
 
+#include "Harmos_PrescribedCycle.hpp"
+
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Partition.hpp>
@@ -163,9 +165,25 @@ void startLedger(Run &run)
   l.mass0 = totals.mass;
   l.momentum0_x = totals.momentum_x;
   l.momentum0_y = totals.momentum_y;
+  l.angular_momentum0 = totals.angular_momentum;
   l.noteErrors(0.0, 0.0, 0.0, l.energy0, totals.speed_momentum);
   if (!(totals.mass > 0.0) && run.state.bodies.empty())
     throw DeckError("bodies: no body has any mass inside of the mesh");
+}
+
+/// A prescribed field that carries a body through a side of the mesh at once. \throw DeckError on all ranks alike.
+void refuseSideCrossing(Run const &run)
+{
+  if (run.scene.prescribed.kind == FieldKind::None)
+    return;
+  SideCrossing const crossing = findSideCrossing(run.scene, run.state);
+  std::string const cause = firstCause(
+      *run.comm, crossing.cell < 0 ? ""
+                                   : "prescribed_velocity: it carries body " + run.deck.fields[crossing.material].name +
+                                         " through a side of the mesh; expected: bodies that keep off "
+                                         "the cells at sides that the field crosses");
+  if (!cause.empty())
+    throw DeckError(cause);
 }
 
 void placeTracers(Run &run)
@@ -233,6 +251,7 @@ void setUp(Run &run)
   else
   {
     setFirstTimeStep(run.deck, run.scene, run.state);
+    refuseSideCrossing(run);
     startLedger(run);
   }
   ReconstructionReport reconstruction;

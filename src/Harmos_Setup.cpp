@@ -2,6 +2,7 @@
 #include "Harmos_Setup.hpp"
 
 #include "Harmos_PrescribedCycle.hpp"
+#include "Harmos_SmoothedMesh.hpp"
 
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_Paint.hpp>
@@ -300,6 +301,8 @@ Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange c
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
   scene.remap = deck.remap;
   scene.prescribed = deck.prescribed;
+  if (deck.smoother.moves())
+    scene.target_mesh = smoothedMesh(deck.smoother, scene.boundary, exchange);
   if (deck.kinematics == Kinematics::Lagrangian)
     scene.subzone_fraction = subzoneFractions(mesh);
   if (deck.run.max_dt > 0.0)

@@ -30,7 +30,7 @@ void warn(Run &run, std::string const &text)
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
-  double sums[10] = {remap.kinetic_loss,
+  double sums[11] = {remap.kinetic_loss,
                      remap.overlap_volume,
                      remap.void_volume,
                      remap.outflow_mass,
@@ -39,8 +39,9 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
                      remap.outflow_energy,
                      static_cast<double>(remap.merged),
                      static_cast<double>(report.reconstruction.unfinished_cells),
-                     static_cast<double>(report.update.out_of_range)};
-  exchange.sum(sums, 10);
+                     static_cast<double>(report.update.out_of_range),
+                     remap.returned_heat};
+  exchange.sum(sums, 11);
   l.external_work += report.external_work;
   l.contact_loss += report.constraint.contact_loss;
   l.external_impulse_x += report.external_impulse[0];
@@ -55,6 +56,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.merged += sums[7];
   l.unfinished_interfaces += sums[8];
   l.out_of_range += sums[9];
+  l.returned_heat += sums[10];
   l.unconverged_cycles += report.constraint.converged ? 0.0 : 1.0;
   l.light_nodes += static_cast<double>(report.light_nodes);
   l.repeats += report.repeats;
@@ -100,7 +102,10 @@ void checkCycle(Run const &run, CycleReport const &report)
 {
   std::string cause;
   UpdateReport const &u = report.update;
-  if (u.inverted > 0)
+  if (report.crossing_cell >= 0)
+    cause = "the prescribed field carries material through a side of the mesh: " +
+            placeOf(run, report.crossing_cell, report.crossing_material);
+  else if (u.inverted > 0)
     cause = "a moved cell is inverted: " + placeOf(run, u.cell, u.material);
   else if (u.not_a_number > 0)
     cause = "a value is not a number, or a specific volume not positive: " + placeOf(run, u.cell, u.material);
@@ -143,6 +148,7 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.mass_error = run.ledger.largest_mass_error;
   s.momentum_error = run.ledger.largest_momentum_error;
   s.energy_error = run.ledger.largest_energy_error;
+  s.angular_momentum_drift = run.ledger.largest_angular_drift;
   s.unconverged_cycles = std::llround(run.ledger.unconverged_cycles);
   s.merged_fragments = std::llround(run.ledger.merged);
   s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);

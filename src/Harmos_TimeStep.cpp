@@ -18,6 +18,8 @@ namespace
 
 constexpr int most_repeats = 8;
 constexpr double largest_growth = 1.05; // of dt from one cycle to the next
+constexpr double largest_shared_aspect =
+    2.125; // largestAspectRatio of a rectangle with sides 1 : 4 (doc/decisions/0003)
 
 /// Work of gravity with v_mean = (v^{n-1/2} + v^{n+1/2})/2 on deformable bodies, owned nodes. [J/m]
 double gravityWork(Scene const &scene, CycleState const &s, double dt)
@@ -83,6 +85,17 @@ void holdRigidNodes(Scene const &scene, CycleState &s, PredictionSums &predictio
           Vector2{after(m, SumMomentumX) - before(m, SumMomentumX), after(m, SumMomentumY) - before(m, SumMomentumY)};
       prediction.driven_work += after(m, SumKineticEnergy) - before(m, SumKineticEnergy);
     }
+}
+
+/// What must not exceed one, over all ranks: the travel of a node over 0.9 of the least altitude around it, and the
+/// part of a pure cell that swept faces take away. The latter is below one where all nodes travel less than 0.7 of
+/// that.
+double largestTravel(Scene const &scene, CycleState const &s, double dt, TravelReport const &travel)
+{
+  double const ratio = scene.exchange->max(travel.largest_ratio);
+  if (!scene.remap.swept_faces || !(ratio > 0.6) || ratio > 1.0)
+    return ratio;
+  return Math::max(ratio, scene.exchange->max(largestSweptPart(scene.mesh, s.pairs, s.work.half, dt)));
 }
 
 /// Work and impulse from outside, of this cycle, over all ranks; what travel limits took counts as contact loss.
@@ -185,6 +198,22 @@ void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials,
   updateGeometry(mesh);
 }
 
+/// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2. Owned cells.
+double largestAspectRatio(Mesh const &mesh)
+{
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::largestAspectRatio", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, double &most) {
+        Quadrilateral const q = cellQuadrilateral(mesh, cell);
+        double const diagonal = Math::max(dot(q[2] - q[0], q[2] - q[0]), dot(q[3] - q[1], q[3] - q[1]));
+        if (mesh.cell_depth(cell) == 0)
+          most = Math::max(most, 0.5 * diagonal / mesh.cell_area(cell));
+      },
+      Kokkos::Max<double>(largest));
+  return largest;
+}
+
 /// Move the mesh to where the host code wants it. \return Where it was; extent 0: nobody wants it moved.
 View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
 {
@@ -195,11 +224,14 @@ View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
   View<double *[2]> const target("Harmos::target", mesh.num_nodes);
   Kokkos::deep_copy(target, start);
   scene.target_mesh(mesh, s, dt, target);
+  exchangeNodePositions(mesh, *scene.exchange, mesh.halo, target);
   mesh.node_position = target;
   mesh.cell_area = View<double *>("Harmos::targetArea", mesh.num_cells);
   updateGeometry(mesh);
   if (scene.exchange->max(countInvertedCells(mesh)) > 0.0)
     throw std::runtime_error("the target mesh has cells that are not strictly convex");
+  if (scene.exchange->size() > 1 && scene.exchange->max(largestAspectRatio(mesh)) > largest_shared_aspect)
+    throw std::runtime_error("the target mesh has cells of an aspect ratio above 4, which run on one rank only");
   computeNodeAltitudes(mesh, s.work);
   s.rigid_rows = {}; // they belong to the cells
   return start;
@@ -312,7 +344,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     travel =
         limitTravel(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, scene.lagrange, dt, work);
     report.light_nodes = travel.limited;
-    if (exchange.max(travel.largest_ratio) <= 1.0 || report.repeats == most_repeats)
+    if (largestTravel(scene, s, dt, travel) <= 1.0 || report.repeats == most_repeats)
       break;
   }
   report.dt = dt;

@@ -27,8 +27,8 @@ struct CycleState;
 ///
 /// \param mesh    Where they are. \param state  Before the remap: state.work.half are the dof nodes' v^{n+1/2}.
 /// \param dt      Of this cycle [s].
-/// \param target  All local nodes; holds their present positions. What a node gets may depend on nothing but what
-///                every rank that holds it knows, to the bit.
+/// \param target  All local nodes; holds their present positions. Must be right, to the bit, at the nodes of owned
+///                cells, on every rank that owns one around; the others get what their owners have.
 using TargetMesh =
     std::function<void(Mesh const &mesh, CycleState const &state, double dt, View<double *[2]> const &target)>;
 
@@ -93,6 +93,8 @@ struct CycleReport
   RemapReport remap;
   double external_work = 0.0; // gravity, walls, driven bodies
   Vector2 external_impulse = {0.0, 0.0};
+  int crossing_cell = -1; // prescribed field: it would carry this cell's material through a side of the mesh
+  int crossing_material = -1;
   double restored_volume = 0.0; // prescribed field: sum over materials of |volume given back| [length^2]
   double kinetic_energy = 0.0;  // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
 };

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_Totals.hpp"
 
+#include <cmath>
+
 namespace Harmos
 {
 namespace
 {
 
-/// sum m |v| over the corners of the owned deformable pairs, and the number of owned pairs, mixed ones last.
+/// sum m |v| and sum m |x| |v| over the corners of the owned deformable pairs, and the number of owned pairs, mixed
+/// ones last.
 struct PairCounts
 {
-  double speed_momentum;
+  double speed_momentum, moment;
   long long pairs, mixed;
 };
 
@@ -23,7 +26,7 @@ PairCounts countPairs(Scene const &scene, CycleState const &s)
   PairCounts counts{};
   Kokkos::parallel_reduce(
       "Harmos::countPairs", RangePolicy(0, pairs.num_pairs),
-      KOKKOS_LAMBDA(int pair, double &speed, long long &owned, long long &mixed) {
+      KOKKOS_LAMBDA(int pair, double &speed, double &moment, long long &owned, long long &mixed) {
         int const cell = pairs.cell(pair);
         if (mesh.cell_depth(cell) != 0)
           return;
@@ -33,11 +36,13 @@ PairCounts countPairs(Scene const &scene, CycleState const &s)
           return;
         for (int k = 0; k < 4; ++k)
         {
-          int const dof = pairs.dof_node(pair, k);
-          speed += 0.25 * record(pair, Mass) * norm(Vector2{velocity(dof, 0), velocity(dof, 1)});
+          int const dof = pairs.dof_node(pair, k), node = mesh.cell_node(cell, k);
+          double const part = 0.25 * record(pair, Mass) * norm(Vector2{velocity(dof, 0), velocity(dof, 1)});
+          speed += part;
+          moment += part * norm(Vector2{mesh.node_position(node, 0), mesh.node_position(node, 1)});
         }
       },
-      counts.speed_momentum, counts.pairs, counts.mixed);
+      counts.speed_momentum, counts.moment, counts.pairs, counts.mixed);
   return counts;
 }
 
@@ -100,6 +105,7 @@ Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials,
     for (int i = 0; i < PlasticStrainMax; ++i)
       flat.push_back(sums(m, i));
   flat.push_back(counts.speed_momentum);
+  flat.push_back(counts.moment);
   scene.exchange->sum(flat.data(), static_cast<int>(flat.size()));
   long long whole[2] = {counts.pairs, counts.mixed};
   scene.exchange->sum(whole, 2);
@@ -107,7 +113,8 @@ Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials,
   Totals totals;
   totals.pairs = whole[0];
   totals.pairs_mixed = whole[1];
-  totals.speed_momentum = flat.back();
+  totals.speed_momentum = flat[flat.size() - 2];
+  totals.moment = flat.back();
   totals.material.resize(num_materials);
   std::vector<int> body_of(all_materials, -1);
   for (std::size_t b = 0; b < s.bodies.size(); ++b)
@@ -139,6 +146,8 @@ Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials,
                              0.5 * body.inertia * body.angular_velocity * body.angular_velocity;
         angular = body.mass * cross(body.centre, body.velocity) + body.inertia * body.angular_velocity;
         totals.speed_momentum += body.mass * norm(body.velocity);
+        totals.moment +=
+            body.mass * norm(body.centre) * norm(body.velocity) + body.inertia * std::fabs(body.angular_velocity);
       }
     }
     if (counted)

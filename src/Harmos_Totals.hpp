@@ -20,6 +20,7 @@ struct Totals
   double angular_momentum = 0.0; // about the origin
   double kinetic_energy = 0.0, internal_energy = 0.0;
   double speed_momentum = 0.0; // sum m |v|: what momentum errors are measured against
+  double moment = 0.0;         // sum m |x| |v|: the same for the angular momentum
   long long pairs = 0, pairs_mixed = 0;
   std::vector<HistoryMaterial> material; // the first `num_materials`, extents zero unless asked for
 };

@@ -145,7 +145,7 @@ std::string writeCheckpoint(MPI_Comm comm, std::string const &directory, Mesh co
     file.writeAttribute("/", "nodes", num_nodes);
     writeScalars(file, comm, scalars);
     writePairs(file, comm, ownedPairs(mesh, pairs, state), num_cells);
-    if (scalars.kinematics == Kinematics::Lagrangian)
+    if (scalars.kinematics == Kinematics::Lagrangian || scalars.moving_mesh)
       writeNodes(file, comm, mesh, num_nodes);
     file.close();
   }

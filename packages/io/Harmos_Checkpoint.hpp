@@ -20,6 +20,7 @@ struct CheckpointScalars
   double time = 0.0; // t^n of the next cycle [s]
   double dt = 0.0;   // of the next cycle [s]
   Kinematics kinematics = Kinematics::Xfem;
+  bool moving_mesh = false; // the node positions belong to the state, as they do in `lagrangian` kinematics
   std::vector<std::string> material_names;
   std::vector<RigidBody> bodies;
   std::map<std::string, double> ledger;              // cumulative values of the history, and whatever steers the run
@@ -43,7 +44,7 @@ struct CheckpointState
 /// doubles as their bits, and a checksum of every array; it does not depend on the number of ranks. Of the older
 /// checkpoints in the folder the newest is kept; those of later cycles (of a branch that a restart left) are removed.
 ///
-/// In `lagrangian` kinematics the node positions are written as well.
+/// In `lagrangian` kinematics, and where the mesh moves by itself, the node positions are written as well.
 /// \return The file's name. \throws std::runtime_error with the file's name and the cause.
 std::string writeCheckpoint(MPI_Comm comm, std::string const &directory, Mesh const &mesh,
                             CellMaterialPairs const &pairs, PairState const &state, CheckpointScalars const &scalars);
@@ -54,7 +55,7 @@ CheckpointScalars readCheckpointScalars(std::string const &path);
 /// Read the pairs of the local cells, owned and halo, of any partition of the same mesh; collective.
 ///
 /// Every rank scans the whole file, verifies its checksums and keeps the rows of its cells.
-/// \param mesh In `lagrangian` kinematics its node positions and cell areas are replaced.
+/// \param mesh Its node positions and cell areas are replaced where the file holds them.
 /// \throws std::runtime_error with the file's name: missing or cut short, another format, of another mesh, or damaged.
 CheckpointState readCheckpoint(MPI_Comm comm, std::string const &path, Mesh &mesh);
 

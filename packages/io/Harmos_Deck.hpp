@@ -7,6 +7,7 @@
 #include <Harmos_Constrain.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Material.hpp>
+#include <Harmos_MeshSmoother.hpp>
 #include <Harmos_PrescribedField.hpp>
 #include <Harmos_Reconstruct.hpp>
 #include <Harmos_Remap.hpp>
@@ -145,6 +146,7 @@ struct Deck
   AxisSpec x, y;
   double jitter = 0.0; // of the inner nodes, part of the smaller cell beside a grid line
   int jitter_seed = 1;
+  MeshSmoother smoother;                 // xfem, single
   Boundary boundary[num_boundary_sides]; // Inflow: `material` is a field
   std::vector<LawSpec> laws;
   std::vector<BodySpec> bodies;  // in the order of the deck

@@ -273,6 +273,7 @@ void checkPrescribed(DeckChecker const &check, ParameterList const &complete, De
   check.require(deck.lagrange.gravity[0] == 0.0 && deck.lagrange.gravity[1] == 0.0, "gravity", "it" + why);
   check.require(deck.lagrange.closure == Closure::EqualStrain, "numerics/closure", "compressibility" + why);
   check.require(!deck.remap.return_kinetic_defect, "numerics/remap/return_kinetic_defect", "true" + why);
+  check.require(!deck.smoother.moves(), "mesh/smoother", "it" + why + ", which keeps the volumes of the cells");
   for (int side = 0; side < num_boundary_sides; ++side)
     check.require(complete.sublist("boundaries").sublist(side_name[side]).get<std::string>("type") == "slip wall",
                   std::string("boundaries/") + side_name[side] + "/type",
@@ -397,6 +398,10 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   deck.y = axisOf(check, complete.sublist("mesh").sublist("y"), "mesh/y");
   deck.jitter = complete.sublist("mesh").get<double>("jitter");
   deck.jitter_seed = complete.sublist("mesh").get<int>("jitter_seed");
+  ParameterList const &smoother = complete.sublist("mesh").sublist("smoother");
+  deck.smoother = {smoother.get<double>("follow"), smoother.get<double>("relax")};
+  check.require(!deck.smoother.moves() || deck.kinematics != Kinematics::Lagrangian, "mesh/smoother",
+                "the mesh of kinematics lagrangian is the material's; expected: follow and relax 0");
   check.require(deck.jitter == 0.0 || deck.kinematics != Kinematics::Lagrangian, "mesh/jitter",
                 "the blocks of kinematics lagrangian have none; expected: 0");
   // Faces are numbered 4 * cell + k in 32 bits.

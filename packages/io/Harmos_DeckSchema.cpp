@@ -115,6 +115,11 @@ void addMesh(ParameterList &mesh)
   add(mesh, "jitter", 0.0, number({0.0, 0.25, false, true}),
       "inner nodes move at random by up to this part of the smaller cell beside them, in x and in y");
   add(mesh, "jitter_seed", 1, integer(not_negative), "of the random numbers");
+  ParameterList &smoother = mesh.sublist("smoother");
+  add(smoother, "follow", 0.0, number(between(0.0, 1.0)),
+      "part of the materials' mean motion that the nodes follow each cycle; 0: the mesh follows nothing");
+  add(smoother, "relax", 0.0, number(between(0.0, 1.0)),
+      "part of the way to the mean of its neighbours that each node then goes, each cycle; 0: no way");
 }
 
 void addState(ParameterList &list, std::string const &whose)

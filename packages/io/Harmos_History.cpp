@@ -17,7 +17,7 @@ std::string historyHeader(std::vector<std::string> const &material_names)
     for (char const *column : {"mass", "volume", "momentum_x", "momentum_y", "kinetic_energy", "internal_energy",
                                "x_min", "x_max", "y_min", "y_max", "plastic_strain_max"})
       header += ',' + name + '.' + column;
-  return header;
+  return header + ",returned_heat";
 }
 
 History::History(std::string const &path, std::vector<std::string> const &material_names, bool writes, CsvStart start)
@@ -64,6 +64,7 @@ void History::write(HistoryRow const &row)
     for (double value : {m.mass, m.volume, m.momentum_x, m.momentum_y, m.kinetic_energy, m.internal_energy, m.x_min,
                          m.x_max, m.y_min, m.y_max, m.plastic_strain_max})
       appendValue(line, value);
+  appendValue(line, row.returned_heat);
   file_->append(line + '\n');
 }
 

@@ -49,6 +49,7 @@ struct HistoryRow
   long long multipliers = 0, iterations = 0;
   double residual = 0.0;                 // of the constraint loop, relative
   std::vector<HistoryMaterial> material; // in the order of the names
+  double returned_heat = 0.0;            // kinetic energy that the remap turned into internal energy [J/m]
 };
 
 /// history.csv: a header line, then a row per call, whole lines only, doubles with 17 digits.

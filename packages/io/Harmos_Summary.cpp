@@ -95,6 +95,7 @@ std::string summaryText(Summary const &s)
   object.add("mass_error", s.mass_error);
   object.add("momentum_error", s.momentum_error);
   object.add("energy_error", s.energy_error);
+  object.add("angular_momentum_drift", s.angular_momentum_drift);
   object.add("unconverged_cycles", s.unconverged_cycles);
   object.add("merged_fragments", s.merged_fragments);
   object.add("unfinished_interfaces", s.unfinished_interfaces);

@@ -24,9 +24,10 @@ struct Summary
   double pair_steps_per_second = 0.0;
   long long peak_memory_bytes = 0; // over all ranks
   int ranks = 1;
-  double mass_error = 0.0;     // largest |m - m0 + outflow| / m0
-  double momentum_error = 0.0; // |P - P0 - external impulse + outflow| / sum m |v|
-  double energy_error = 0.0;   // of the total
+  double mass_error = 0.0;             // largest |m - m0 + outflow| / m0
+  double momentum_error = 0.0;         // |P - P0 - external impulse + outflow| / sum m |v|
+  double energy_error = 0.0;           // of the total
+  double angular_momentum_drift = 0.0; // largest |L - L0| over the largest sum m |x| |v|: walls turn too
   long long unconverged_cycles = 0;
   long long merged_fragments = 0;
   long long unfinished_interfaces = 0; // mixed cells, over all cycles, whose line's angle met its bound of iterations

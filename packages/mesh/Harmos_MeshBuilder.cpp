@@ -218,7 +218,7 @@ int countInvertedCells(Mesh const &mesh)
         bool convex = true;
         for (int k = 0; k < 4; ++k)
           convex = convex && cross(q[k] - q[(k + 3) % 4], q[(k + 1) % 4] - q[k]) > 0.0;
-        sum += convex ? 0 : 1;
+        sum += convex || m.cell_depth(cell) != 0 ? 0 : 1;
       },
       count);
   return count;

@@ -22,7 +22,7 @@ Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int ra
 /// Cell areas from the node positions (which the caller has moved).
 void updateGeometry(Mesh &mesh);
 
-/// Number of local cells with a corner that is not strictly convex (or not a number).
+/// Number of owned cells with a corner that is not strictly convex (or not a number).
 int countInvertedCells(Mesh const &mesh);
 
 /// Check geometry and connectivity of a local mesh.

@@ -289,4 +289,30 @@ void exchangeDofVelocities(Exchange const &exchange, int depth, CellMaterialPair
       });
 }
 
+void exchangeNodePositions(Mesh const &mesh, Exchange const &exchange, int depth, View<double *[2]> const &position)
+{
+  if (exchange.size() == 1)
+    return;
+  HaloCells const halo = exchange.haloCells(depth);
+  View<int *> const sent_count("Harmos::mesh::sent_count", halo.sent.extent(0));
+  View<int *> const received_count("Harmos::mesh::received_count", halo.received.extent(0));
+  Kokkos::deep_copy(sent_count, 1);
+  Kokkos::deep_copy(received_count, 1);
+  PackedRows const sent = makeRows(sent_count, 8);
+  PackedRows const received = makeRows(received_count, 8);
+  auto const cell_node = mesh.cell_node;
+  Kokkos::parallel_for(
+      "Harmos::mesh::packPositions", RangePolicy(0, static_cast<int>(halo.sent.extent(0))), KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < 8; ++k)
+          sent(i, k) = position(cell_node(halo.sent(i), k / 2), k % 2);
+      });
+  exchange.exchangePacked(sent, received, depth);
+  // Cells that share a node write the same bits.
+  Kokkos::parallel_for(
+      "Harmos::mesh::unpackPositions", RangePolicy(0, static_cast<int>(halo.received.extent(0))), KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < 8; ++k)
+          position(cell_node(halo.received(i), k / 2), k % 2) = received(i, k);
+      });
+}
+
 } // namespace Harmos

@@ -25,6 +25,10 @@ void exchangeState(Mesh const &mesh, Kinematics kinematics, Exchange const &exch
 void exchangeDofVelocities(Exchange const &exchange, int depth, CellMaterialPairs const &pairs,
                            View<double *[2]> const &velocity);
 
+/// Give the nodes of all halo cells of depth <= `depth` the positions that the cells' owners have. The corners of cells
+/// travel. On one rank it returns at once.
+void exchangeNodePositions(Mesh const &mesh, Exchange const &exchange, int depth, View<double *[2]> const &position);
+
 } // namespace Harmos
 
 #endif

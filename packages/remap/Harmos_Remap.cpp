@@ -259,6 +259,7 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
   report.wall_impulse += sums.wall_impulse;
   double const returned = options.return_kinetic_defect ? returnKineticDefect(in, rebuilt) : 0.0;
   report.kinetic_loss += sums.kinetic_before - sums.kinetic_after - out_kinetic - returned;
+  report.returned_heat += returned;
   return rebuilt.result;
 }
 

@@ -51,6 +51,7 @@ struct RemapReport
   Vector2 wall_impulse = {0.0,
                           0.0}; // by node conditions on the bodies when the remapped velocities are projected [N s/m]
   double kinetic_loss = 0.0;    // before - after - outflow, less what became heat
+  double returned_heat = 0.0;   // kinetic energy that became internal energy (return_kinetic_defect)
   long long failures = 0;       // owned donors whose overlays do not add up to 1e-10 of their volume
   int first_failed_cell = -1;   // with the material of its first such donor; -1: the cell gets too many materials
   int first_failed_material = -1;
@@ -113,6 +114,13 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
                   BoundaryConditions const &conditions, View<Material *> const &materials,
                   View<double *[2]> const &half, double dt, RigidRows const &rigid, RemapOptions const &options,
                   RemapReport &report);
+
+/// The largest part of its moved area that a pure cell of a single material gives away through its faces: their swept
+/// volumes out of it over it. Above 1 (nodes that move along the cells' diagonals by more than half of them) swept
+/// faces leave the range of the donors and amplify noise: the caller repeats the step with a smaller one. Owned cells
+/// of this rank; arguments as of `remap`.
+double largestSweptPart(Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[2]> const &half, double dt,
+                        View<double *[2]> const &start = {});
 
 /// The same with work arrays that live longer than one call.
 RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs const &pairs,

@@ -106,6 +106,23 @@ def test_square_is_carried_by_a_translation():
     by_method("vortex/deck.yaml", {**cells(64), **square}, [2.5e-2, 6e-2, 6e-2])
 
 
+def test_field_that_carries_material_through_a_side_is_refused():
+    move = {"prescribed_velocity": "{field: translation, velocity: [1.0, 0.0]}", "run/end_time": 0.5, **cells(16)}
+    line = "{disc: {material: fluid, shape: half-plane, point: [0.47, 0.53], normal: [1.0, 0.3]}}"
+    for ranks in (1, 2):
+        r = harmos("vortex/deck.yaml", {**move, "bodies": line}, ranks=ranks, expect=2)
+        assert "prescribed_velocity: it carries body disc through a side of the mesh" in r.text, r.text
+    # The same half-plane may move along the sides that it meets.
+    along = {"prescribed_velocity": "{field: translation, velocity: [0.0, 0.0]}", "run/end_time": 0.5, **cells(16)}
+    clean(harmos("vortex/deck.yaml", {**along, "bodies": line}))
+    # A disc that comes to a side later: the run stops there.
+    for ranks in (1, 2):
+        r = harmos("vortex/deck.yaml", {**move, "bodies/disc/center": "[0.6, 0.5]"}, ranks=ranks, expect=3)
+        assert "the prescribed field carries material through a side of the mesh: cell" in r.text, r.text
+        assert 0.18 < r.summary["end_time"] < 0.26, r.summary["end_time"]
+        clean(r)
+
+
 def test_state_does_not_depend_on_the_ranks():
     setting = {**cells(48), "prescribed_velocity/period": 2.0, "run/end_time": 2.0}
     one = carried("vortex/deck.yaml", setting)

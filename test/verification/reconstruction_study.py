@@ -27,11 +27,17 @@ STILL = {"prescribed_velocity": "{field: translation, velocity: [0.0, 0.0]}", "b
 SQUARE = "{material: fluid, shape: rectangle, center: [%s], size: [0.2, 0.2]}"
 TURN = {"prescribed_velocity": "{field: rotation, center: [0.5, 0.5], angular_velocity: 1.0}", "run/end_time": 6.283185307179586}
 SHIFT = {"prescribed_velocity": "{field: translation, velocity: [1.0, 0.6]}", "run/end_time": 0.5}
+CENTRES = [(0.5, 0.5), (0.525, 0.464), (0.4871, 0.5137), (0.5039, 0.5208), (0.4756, 0.4683)]
+LINE = "{disc: {material: fluid, shape: half-plane, point: [0.47, 0.53], normal: [%s, %s]}}"
+NORMALS = [(1.0, 0.3), (-0.2, 1.0), (-1.0, -1.0), (0.7, -1.0)]
+AT_REST = {"prescribed_velocity": STILL["prescribed_velocity"], "run/end_time": 1.0}
 TWO = {"prescribed_velocity/period": 2.0, "run/end_time": 2.0}
 
-# title: deck, settings, cells along a side, part of the figure
+# title: deck, settings (a list of them: the mean of their errors), cells along a side
 CASES = {
     "circle at rest": ("vortex/deck.yaml", STILL, [32, 64, 128, 256]),
+    "circle at rest, mean of five centres": ("vortex/deck.yaml", [{**STILL, "bodies/disc/center": f"[{x}, {y}]"} for x, y in CENTRES], [32, 64, 128, 256]),
+    "straight line, random quadrilaterals, mean of four directions": ("vortex/deck.yaml", [{**AT_REST, "mesh/jitter": 0.24, "mesh/jitter_seed": i, "bodies": LINE % n} for i, n in enumerate(NORMALS)], [32, 64, 128]),
     "circle at rest, random quadrilaterals": ("vortex/deck.yaml", {**STILL, "mesh/jitter": 0.2}, [32, 64, 128, 256]),
     "vortex, T = 2": ("vortex/deck.yaml", TWO, [32, 64, 128, 256]),
     "vortex, T = 2, random quadrilaterals": ("vortex/deck.yaml", {**TWO, "mesh/jitter": 0.2}, [32, 64, 128]),
@@ -40,6 +46,7 @@ CASES = {
     "vortex, T = 8, three materials": ("vortex/three_materials.yaml", {"prescribed_velocity/period": 8.0, "run/end_time": 8.0}, [32, 64, 128]),
     "deformation, T = 2": ("deformation/deck.yaml", {}, [32, 64, 128, 256]),
     "slotted disc, one turn": ("zalesak/deck.yaml", {}, [50, 100, 200]),
+    "slotted disc, translation": ("zalesak/deck.yaml", {"prescribed_velocity": "{field: translation, velocity: [1.0, -1.5]}", "run/end_time": 1.0}, [50, 100, 200]),
     "square, one turn": ("vortex/deck.yaml", {**TURN, "bodies/disc": SQUARE % "0.5, 0.75"}, [32, 64, 128]),
     "disc, one turn": ("vortex/deck.yaml", TURN, [32, 64, 128]),
     "square, translation": ("vortex/deck.yaml", {**SHIFT, "bodies/disc": SQUARE % "0.2, 0.2"}, [32, 64, 128]),
@@ -48,6 +55,18 @@ CASES = {
 
 
 def measure(deck, settings, n, method):
+    """One run, or the mean of several."""
+    if isinstance(settings, dict):
+        return measure_one(deck, settings, n, method)
+    runs = [measure_one(deck, one, n, method) for one in settings]
+    failed = [r for r in runs if r["status"] != "completed"]
+    if failed:
+        return failed[0]
+    mean = {key: sum(r[key] for r in runs) / len(runs) for key in runs[0] if key not in ("status", "volume_error")}
+    return {"status": "completed", **mean, "volume_error": max(r["volume_error"] for r in runs)}
+
+
+def measure_one(deck, settings, n, method):
     every = {"mesh/x/cells": n, "mesh/y/cells": n, "output/fields/every_time": 0.0, "output/fields/at_end": False, "output/history/every_time": 0.0}
     every.update({"numerics/reconstruction/" + key: value for key, value in method.items()})
     r = harmos(deck, {**every, **settings}, expect=None)

@@ -1,33 +1,67 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Errors, bounds and cost of the remap alone, all schemes: tables.
+"""Errors, bounds and cost of the remap alone, all schemes: tables and log-log plots.
 
-remap_study.py [--finest N] [--output FOLDER]: writes remap-study.md. About five minutes on one core with the default.
+remap_study.py [--finest N] [--resume] [--output FOLDER]: writes remap-study.md, remap.json, remap_resolution.png and
+remap_time.png. About ten minutes on one core with the default. With --resume, what remap.json holds is not run again.
 """
 import argparse
+import json
+import os
 import pathlib
 import subprocess
 import tempfile
+from math import log2
 
-from harness import EXAMPLE, HARMOS, read_columns
+import matplotlib
 
-SCHEMES = {
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+from harness import EXAMPLE, HARMOS, ROOT, read_columns
+
+OWN = {
     "swept, first": {"scheme": "swept", "order": 1},
     "swept": {"scheme": "swept"},
+    "swept, van leer": {"scheme": "swept", "limiter": "van leer"},
     "swept, not limited": {"scheme": "swept", "limiter": "none"},
+    "intersection, first": {"scheme": "intersection", "order": 1},
     "intersection": {"scheme": "intersection"},
+    "intersection, range inside": {"scheme": "intersection", "limiter": "range inside"},
+    "intersection, van leer": {"scheme": "intersection", "limiter": "van leer"},
     "intersection, not limited": {"scheme": "intersection", "limiter": "none"},
+    "third": {"scheme": "intersection", "order": 3},
+    "third, range inside": {"scheme": "intersection", "order": 3, "limiter": "range inside"},
+    "third, van leer": {"scheme": "intersection", "order": 3, "limiter": "van leer"},
+    "third, not limited": {"scheme": "intersection", "order": 3, "limiter": "none"},
+}
+COMPARATORS = {
     "interpolation": {"scheme": "interpolation"},
     "projection, lumped": {"scheme": "lumped projection"},
     "projection, consistent": {"scheme": "consistent projection"},
 }
+CASES = {
+    "Cyclic remapping: tensor motion, sine": ("deck.yaml", {"motion": "tensor", "field": "sine"}),
+    "Cyclic remapping: smooth motion, sine": ("deck.yaml", {"motion": "smooth", "field": "sine"}),
+    "Cyclic remapping: tensor motion, shock": ("deck.yaml", {"motion": "tensor", "field": "shock"}),
+    "Cyclic remapping: smooth motion, shock": ("deck.yaml", {"motion": "smooth", "field": "shock"}),
+    "One remap from a regular onto a random mesh, 2 + sine": ("random.yaml", {}),
+}
+DRAWN = ["swept, first", "swept", "swept, not limited", "intersection", "intersection, range inside", "intersection, not limited", "third, range inside", "third, not limited", "projection, consistent"]
 INTRODUCTION = """# The remap alone
 
 One field remapped over moving meshes of the unit square by `harmos remap` (scene `example/remap`), without mechanics. Written by `test/verification/remap_study.py`; the quick part of it is `test/verification/remap.py`.
 
-Second order is limited in the cycle's own schemes (swept, intersection) and is not in the comparators (interpolation, projections), unless its name says otherwise. Conservation: largest relative change of the sum of f V over all steps. Below, above: how far beyond the range of the start
-f ever went. Time: of the processor in the remap, on a machine that others use too (half as much again either way); the cycle's schemes carry eight fields and momentum, the comparators one field. Five steps for each cell along a side.
+Orders: first, second where nothing is said, third. Second and third order are limited (`range`) in the cycle's own schemes (swept, intersection, third) and are not in the comparators (interpolation, projections), unless the name says otherwise. Conservation: largest relative change of the sum of f V over all
+steps. Below, above: how far beyond the range of the start f ever went. Time: of the processor in the remap, on a machine that others use too (half as much again either way); the cycle's schemes carry eight fields and momentum, the comparators one field. Five steps for each cell along a side.
+
+![error against resolution](pictures/remap_resolution.png)
+
+![error against time](pictures/remap_time.png)
 """
-CASES = [("tensor", "sine"), ("smooth", "sine"), ("tensor", "shock"), ("smooth", "shock")]
+
+
+def schemes_of(title):
+    return OWN if title.startswith("One") else {**OWN, **COMPARATORS}
 
 
 def remap(deck, settings):
@@ -37,44 +71,86 @@ def remap(deck, settings):
             command += ["--set", f"{key}={value}"]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode != 0:
-            return {"failed": done.stdout.strip().splitlines()[-1]}
-        return read_columns(pathlib.Path(directory) / "remap.csv")
+            raise SystemExit(f"{' '.join(command)}\n{done.stdout[-2000:]}")
+        return {name: values[0] for name, values in read_columns(pathlib.Path(directory) / "remap.csv").items()}
 
 
-def numbers(values):
-    return "[" + ", ".join(f"{v}.0" for v in values) + "]"
+def order(rows, n):
+    """Slope of L1 against the coarser row."""
+    coarser = rows.get(str(n // 2))
+    return f"{log2(coarser['L1'] / rows[str(n)]['L1']):.2f}" if coarser else ""
 
 
-def table(title, deck, schemes, settings, cells):
+def table(title, results, sizes):
     lines = [f"## {title}", "", "| scheme | cells | L1 | order | L2 | Linf | conservation | below | above | ns a cell and step |", "| --- " * 10 + "|"]
-    for name, scheme in schemes.items():
-        r = remap(deck, {**settings, **scheme, "cells": numbers(cells)})
-        if "failed" in r:
-            lines.append(f"| {name} | {r['failed']} |" + " |" * 8)
-            continue
-        for i, n in enumerate(r["cells"]):
-            order = "" if i == 0 else f"{r['order_L1'][i]:.2f}"
-            lines.append(f"| {name} | {n:.0f} | {r['L1'][i]:.2e} | {order} | {r['L2'][i]:.2e} | {r['Linf'][i]:.2e} | {r['conservation'][i]:.0e} | {max(r['below'][i], 0):.0e} | {max(r['above'][i], 0):.0e} | {r['cpu_ns_per_cell_step'][i]:.0f} |")
-        print(lines[-1], flush=True)
+    for name in schemes_of(title):
+        for n in sizes:
+            r = results[name][str(n)]
+            lines.append(f"| {name} | {n} | {r['L1']:.2e} | {order(results[name], n)} | {r['L2']:.2e} | {r['Linf']:.2e} | {r['conservation']:.0e} | {max(r['below'], 0):.0e} | {max(r['above'], 0):.0e} | {r['cpu_ns_per_cell_step']:.0f} |")
     return lines + [""]
+
+
+def momentum_table(results, sizes):
+    lines = ["## Momentum, angular momentum and kinetic energy", "", "The material's velocity is a vortex at rest on the walls, one more field of the same runs (sine). Momentum: largest change, less the walls' impulse, over sum m|v| (a bound of it). Angular momentum: largest relative change."
+             " Kinetic energy: the part that is left at the end (`return_kinetic_defect` turns the rest into heat).", "", "| motion | scheme | cells | momentum | angular momentum | kinetic energy |", "| --- " * 6 + "|"]
+    for title, (_, settings) in CASES.items():
+        if settings.get("field") != "sine":
+            continue
+        for name in OWN:
+            for n in sizes:
+                r = results[title][name][str(n)]
+                lines.append(f"| {settings['motion']} | {name} | {n} | {r['momentum']:.0e} | {r['angular_momentum']:.2e} | {r['kinetic_energy']:.6f} |")
+    return lines + [""]
+
+
+def draw(results, column, label, path):
+    figure, axes = plt.subplots(2, 3, figsize=(13, 8), constrained_layout=True)
+    for axis, title in zip(axes.flat, CASES):
+        for name, marker in zip(DRAWN, "xosv^D<>*"):
+            points = [(float(n) if column == "cells" else r[column], r["L1"]) for n, r in sorted(results[title].get(name, {}).items(), key=lambda item: int(item[0]))]
+            if points:
+                axis.loglog(*zip(*points), marker + "-", label=name, linewidth=1, markersize=5)
+        axis.set_title(title.replace("Cyclic remapping: ", ""), fontsize=9)
+        axis.set_xlabel(label)
+        axis.set_ylabel("L1")
+        axis.grid(True, which="both", alpha=0.25)
+        if column == "cells":
+            sizes = sorted({int(n) for rows in results[title].values() for n in rows})
+            axis.set_xticks(sizes, labels=[str(n) for n in sizes])
+            axis.minorticks_off()
+    handles, names = axes.flat[0].get_legend_handles_labels()
+    axes.flat[5].axis("off")
+    axes.flat[5].legend(handles, names, fontsize=9, loc="center")
+    figure.savefig(path, dpi=110)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--finest", type=int, default=64, help="cells along a side, cyclic remapping")
-    parser.add_argument("--output", default=".")
+    parser.add_argument("--output", default=str(ROOT / "results/remap_study"))
+    parser.add_argument("--resume", action="store_true", help="keep what remap.json holds")
     options = parser.parse_args()
-    cells = [n for n in (32, 64, 128) if n <= options.finest]
+    folder = pathlib.Path(options.output)
+    os.makedirs(folder, exist_ok=True)
+    stored = folder / "remap.json"
+    results = json.loads(stored.read_text()) if options.resume and stored.exists() else {}
+    cyclic = [n for n in (32, 64, 128) if n <= options.finest]
     lines = [INTRODUCTION]
-    for motion, field in CASES:
-        lines += table(f"Cyclic remapping: {motion} motion, {field}", "deck.yaml", SCHEMES, {"motion": motion, "field": field}, cells)
-    own = {name: scheme for name, scheme in SCHEMES.items() if scheme["scheme"] in ("swept", "intersection")}
-    own["intersection, range inside"] = {"scheme": "intersection", "limiter": "range inside"}
-    own["intersection, first"] = {"scheme": "intersection", "order": 1}
-    lines += table("One remap from a regular onto a random mesh, 2 + sine", "random.yaml", own, {}, [32, 64, 128, 256])
-    path = pathlib.Path(options.output) / "remap-study.md"
-    path.write_text("\n".join(lines))
-    print(path)
+    for title, (deck, settings) in CASES.items():
+        sizes = [32, 64, 128, 256] if title.startswith("One") else cyclic
+        for name, scheme in schemes_of(title).items():
+            for n in sizes:
+                known = results.setdefault(title, {}).setdefault(name, {})
+                if str(n) not in known:
+                    known[str(n)] = remap(deck, {**settings, **scheme, "cells": f"[{n}.0]"})
+                    print(title, name, n, f"{known[str(n)]['L1']:.3e}", flush=True)
+                    stored.write_text(json.dumps(results, indent=1))
+        lines += table(title, results[title], sizes)
+    lines += momentum_table(results, cyclic)
+    (folder / "remap-study.md").write_text("\n".join(lines))
+    draw(results, "cells", "cells along a side", folder / "remap_resolution.png")
+    draw(results, "cpu_seconds", "CPU time in the remap [s]", folder / "remap_time.png")
+    print(folder / "remap-study.md")
 
 
 main()

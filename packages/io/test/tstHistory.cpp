@@ -45,7 +45,7 @@ TEST(History, header_namesTheColumnsThatScriptsRelyOn)
             "contact_loss,remap_loss,energy_error,overlap_volume,void_volume,external_impulse_x,external_impulse_y,"
             "outflow_mass,outflow_momentum_x,outflow_momentum_y,outflow_energy,pairs,pairs_mixed,multipliers,"
             "iterations,residual,cu.mass,cu.volume,cu.momentum_x,cu.momentum_y,cu.kinetic_energy,cu.internal_energy,"
-            "cu.x_min,cu.x_max,cu.y_min,cu.y_max,cu.plastic_strain_max");
+            "cu.x_min,cu.x_max,cu.y_min,cu.y_max,cu.plastic_strain_max,returned_heat");
 }
 
 TEST(History, writtenDoubles_readBackWithTheSameBits)
@@ -166,6 +166,7 @@ TEST(Summary, file_holdsEveryKeyInOrder)
                           "mass_error",
                           "momentum_error",
                           "energy_error",
+                          "angular_momentum_drift",
                           "unconverged_cycles",
                           "merged_fragments",
                           "unfinished_interfaces",

@@ -216,7 +216,9 @@ struct SweptFluxFunctor
 
     // Density first: it gives the mass fluxes that weigh the primitives.
     Pack const rho = row[MovedDensity];
-    Pack const per_volume = 1.0 / out.staying;
+    // Where all of a cell leaves, no mean of what stays bounds anything (largestSweptPart).
+    auto const remains = out.staying > Pack(0.0);
+    Pack const per_volume = select(remains, Pack(1.0 / select(remains, out.staying, Pack(1.0))), Pack(0.0));
     Pack deviation[4] = {}, mass[4], flux[4][pack_width];
     Pack const part =
         limit(differentiate(directions, rho, density), offset, density, out, out.volume, per_volume, deviation);

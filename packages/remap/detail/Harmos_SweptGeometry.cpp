@@ -46,8 +46,9 @@ KOKKOS_FORCEINLINE_FUNCTION Swept sweptWhole(PackedVector const &edge, PackedVec
                                              Pack const &d_a, Pack const &d_b)
 {
   Pack const volume = 0.5 * (d_a + d_b);
-  // What is no more than round-off has no centroid.
-  auto const leaves = volume > 1e-14 * Math::fabs(d_a - d_b);
+  // What is no more than round-off, or too small for its reciprocal (ahead of a wave velocities fade that far), has no
+  // centroid.
+  auto const leaves = volume > Math::max(Pack(1e-280), Pack(1e-14 * Math::fabs(d_a - d_b)));
   Pack const per_volume = select(leaves, Pack(1.0), Pack(0.0)) / select(leaves, volume, Pack(1.0));
   Pack const along = (d_a + 2.0 * d_b) * (per_volume * (1.0 / 6.0));
   Pack const across = cross(u_a, u_b) * (per_volume * (1.0 / 24.0));

@@ -206,3 +206,21 @@ TEST(Target, onPartOfTheMesh_givesTheBitsOfTheWhole)
     EXPECT_EQ(differences(part, remapTo(part, shiftedMesh(part, 0.009)), all), 0);
   }
 }
+
+TEST(LargestSweptPart, uniformMotion_isTheSumOfItsPartsOfACell)
+{
+  Scene scene(8, 8, 0.0, {Material{}});
+  scene.paint(
+      {rest(0)}, [](int, Vector2 const &) { return 1.0; }, [](int, Vector2 const &) { return 1.0; });
+  scene.move([](int, Vector2 const &) { return Vector2{0.6 / 8.0, -0.5 / 8.0}; });
+  EXPECT_NEAR(largestSweptPart(scene.mesh, scene.pairs, scene.half, 1.0), 1.1, 1e-13);
+  // onto a mesh that goes along in x
+  Mesh next = scene.mesh;
+  next.node_position = View<double *[2]>("next", scene.mesh.num_nodes);
+  for (int node = 0; node < scene.mesh.num_nodes; ++node)
+  {
+    next.node_position(node, 0) = scene.mesh.node_position(node, 0) + scene.half(scene.dof_nodes.offset(node), 0);
+    next.node_position(node, 1) = scene.mesh.node_position(node, 1);
+  }
+  EXPECT_NEAR(largestSweptPart(next, scene.pairs, scene.half, 1.0, scene.mesh.node_position), 0.5, 1e-13);
+}

@@ -141,3 +141,17 @@ TEST(Uniform, materialThatLeaves_isBookedAsOutflow)
   EXPECT_NEAR(after.internal + after.kinetic + scene.report.outflow_energy, before.internal + before.kinetic, 1e-14);
   EXPECT_EQ(scene.report.failures, 0);
 }
+
+TEST(Uniform, velocitiesThatFadeToTheSmallestNumbers_leaveNumbers)
+{
+  for (double const least : {1e-290, 1e-305, 1e-308, 1e-315})
+  {
+    Scene scene(12, 12, 0.1, {Material{}});
+    scene.paint({rest(0)}, density, energy);
+    scene.move([least](int, Vector2 const &x) { return Vector2{least * (1.0 - 1.7 * x[1]), least * (x[0] - 0.6)}; });
+    RemapResult const result = scene.remapped();
+    for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+      for (int f = 0; f < num_pair_fields; ++f)
+        EXPECT_EQ(result.state.record(pair, f), scene.state.record(pair, f)) << least;
+  }
+}
