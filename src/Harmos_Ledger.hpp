@@ -36,6 +36,7 @@ struct Ledger
   double pair_steps = 0.0;
   double cell_steps = 0.0;
   double unconverged_cycles = 0.0;
+  double broken_bonds = 0.0;
   double light_nodes = 0.0;
   double repeats = 0.0;
   double merged = 0.0;

@@ -195,7 +195,7 @@ void RunOutput::writeContacts(Scene const &scene, CycleState const &state, Cycle
       if (force.area == 0.0 && force.normal_impulse == 0.0)
         continue;
       entries.push_back({name(a), name(b), force.impulse[0] / report.dt, force.impulse[1] / report.dt,
-                         force.normal_impulse, force.area});
+                         force.normal_impulse, force.area, force.deviation() / report.dt});
     }
   contacts_.write(state.cycle, state.time, entries);
 }
@@ -257,6 +257,20 @@ void RunOutput::writeTracers(Scene const &scene, CycleState const &state)
   tracers_->write(state.cycle, state.time, entries);
 }
 
+namespace
+{
+
+std::vector<double> tracerValues(std::vector<Tracer> const &tracers)
+{
+  std::vector<double> values;
+  for (Tracer const &t : tracers)
+    values.insert(values.end(), {t.position[0], t.position[1], t.velocity[0], t.velocity[1],
+                                 static_cast<double>(t.cell), static_cast<double>(t.material)});
+  return values;
+}
+
+} // namespace
+
 std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, Ledger const &ledger)
 {
   CheckpointScalars scalars;
@@ -269,11 +283,12 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   scalars.bodies = state.bodies;
   scalars.arrays["ledger"] = ledger.values();
   scalars.arrays["ended"] = {history_due_.regular() ? 0.0 : 1.0, fields_due_.regular() ? 0.0 : 1.0};
-  std::vector<double> tracers;
-  for (Tracer const &t : state.tracers)
-    tracers.insert(tracers.end(), {t.position[0], t.position[1], t.velocity[0], t.velocity[1],
-                                   static_cast<double>(t.cell), static_cast<double>(t.material)});
-  scalars.arrays["tracers"] = tracers;
+  scalars.arrays["tracers"] = tracerValues(state.tracers);
+  scalars.arrays["bond_tracers"] = tracerValues(state.bond_tracers);
+  std::vector<double> bonds;
+  for (Bond const &b : state.bonds)
+    bonds.insert(bonds.end(), {static_cast<double>(b.material_b), b.broken ? 1.0 : 0.0});
+  scalars.arrays["bonds"] = bonds;
   scalars.deck = deck_.yaml;
   scalars.version = version();
   last_checkpoint_ = writeCheckpoint(mpi_, directory_, scene.mesh, state.pairs, state.state, scalars);

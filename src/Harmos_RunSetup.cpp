@@ -114,17 +114,36 @@ std::vector<double> const &arrayOf(CheckpointScalars const &scalars, std::string
   return found->second;
 }
 
-void restoreTracers(Run &run, std::vector<double> const &values)
+std::vector<Tracer> tracersFrom(std::vector<double> const &values)
 {
   std::size_t const width = 6;
-  if (values.size() != width * run.deck.tracers.size())
-    throw std::runtime_error("it holds " + std::to_string(values.size() / width) + " tracers, the deck " +
-                             std::to_string(run.deck.tracers.size()));
-  for (std::size_t i = 0; i < values.size(); i += width)
+  std::vector<Tracer> tracers;
+  for (std::size_t i = 0; i + width <= values.size(); i += width)
   {
     double const *v = values.data() + i;
-    run.state.tracers.push_back({{v[0], v[1]}, {v[2], v[3]}, static_cast<long long>(v[4]), static_cast<int>(v[5])});
+    tracers.push_back({{v[0], v[1]}, {v[2], v[3]}, static_cast<long long>(v[4]), static_cast<int>(v[5])});
   }
+  return tracers;
+}
+
+void restoreTracers(Run &run, std::vector<double> const &values)
+{
+  run.state.tracers = tracersFrom(values);
+  if (run.state.tracers.size() != run.deck.tracers.size())
+    throw std::runtime_error("it holds " + std::to_string(run.state.tracers.size()) + " tracers, the deck " +
+                             std::to_string(run.deck.tracers.size()));
+}
+
+/// \param values Second material and state of each bond.
+void restoreBonds(Run &run, std::vector<double> const &tracers, std::vector<double> const &values)
+{
+  CycleState &s = run.state;
+  s.bond_tracers = tracersFrom(tracers);
+  if (values.size() != 2 * s.bond_tracers.size())
+    throw std::runtime_error("its bonds and their points differ in number");
+  for (std::size_t i = 0; i < s.bond_tracers.size(); ++i)
+    s.bonds.push_back({s.bond_tracers[i].position, s.bond_tracers[i].material, static_cast<int>(values[2 * i]),
+                       values[2 * i + 1] != 0.0});
 }
 
 /// The state from a checkpoint: the same bits that the interrupted run had.
@@ -150,6 +169,7 @@ void restoreState(Run &run)
   s.dt = scalars.dt;
   run.ledger = Ledger::fromValues(arrayOf(scalars, "ledger"));
   restoreTracers(run, arrayOf(scalars, "tracers"));
+  restoreBonds(run, arrayOf(scalars, "bond_tracers"), arrayOf(scalars, "bonds"));
   std::vector<double> const &ended = arrayOf(scalars, "ended");
   run.start = {true, false, s.cycle, s.time, ended.at(0) != 0.0, ended.at(1) != 0.0};
   run.first_cycle = s.cycle;

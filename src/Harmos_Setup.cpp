@@ -5,6 +5,8 @@
 #include "Harmos_SmoothedMesh.hpp"
 
 #include <Harmos_DeckSchema.hpp>
+#include <Harmos_EquationOfState.hpp>
+#include <Harmos_FlowStress.hpp>
 #include <Harmos_Paint.hpp>
 
 #include <algorithm>
@@ -261,6 +263,26 @@ Body paintedBody(BodySpec const &spec)
   return body;
 }
 
+namespace
+{
+
+/// Density times longitudinal wave speed of the laws' reference states; 0: rigid.
+std::vector<double> impedances(std::vector<Material> const &materials)
+{
+  std::vector<double> result;
+  for (Material const &law : materials)
+  {
+    double const sv = 1.0 / law.density0;
+    double const bulk = law.rigid_body >= 0 ? 0.0 : equationOfState(law, sv, law.energy0).sound_speed_squared;
+    result.push_back(law.rigid_body >= 0
+                         ? 0.0
+                         : law.density0 * std::sqrt(longitudinalSoundSpeedSquared(law, bulk, sv, law.energy0)));
+  }
+  return result;
+}
+
+} // namespace
+
 Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange const &exchange)
 {
   Scene scene;
@@ -293,12 +315,13 @@ Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange c
   if (!deck.removal_order.empty())
     scene.reconstruction.order = deviceCopy("removal_order", deck.removal_order);
   scene.constraint = deck.constraint;
-  scene.constraint.interaction = View<int **>("interaction", m, m);
+  scene.constraint.interaction = View<PairInteraction **>("interaction", m, m);
   auto interaction = Kokkos::create_mirror_view(scene.constraint.interaction);
   for (int a = 0; a < m; ++a)
     for (int b = 0; b < m; ++b)
-      interaction(a, b) = static_cast<int>(a < f && b < f ? deck.interaction[a * f + b] : Interaction::Sliding);
+      interaction(a, b) = a < f && b < f ? deck.interaction[a * f + b] : PairInteraction();
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
+  scene.constraint.impedance = deviceCopy("impedance", impedances(materials));
   scene.remap = deck.remap;
   scene.prescribed = deck.prescribed;
   if (deck.smoother.moves())

@@ -58,6 +58,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.out_of_range += sums[9];
   l.returned_heat += sums[10];
   l.unconverged_cycles += report.constraint.converged ? 0.0 : 1.0;
+  l.broken_bonds += report.broken_bonds;
   l.light_nodes += static_cast<double>(report.light_nodes);
   l.repeats += report.repeats;
   l.restored_volume += report.restored_volume;
@@ -150,6 +151,7 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.energy_error = run.ledger.largest_energy_error;
   s.angular_momentum_drift = run.ledger.largest_angular_drift;
   s.unconverged_cycles = std::llround(run.ledger.unconverged_cycles);
+  s.broken_bonds = std::llround(run.ledger.broken_bonds);
   s.merged_fragments = std::llround(run.ledger.merged);
   s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);
   if (run.scene.prescribed.kind != FieldKind::None)

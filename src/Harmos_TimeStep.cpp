@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_TimeStep.hpp"
 
+#include "Harmos_ContactState.hpp"
 #include "Harmos_PhaseTimer.hpp"
 #include "Harmos_PrescribedCycle.hpp"
 
@@ -243,14 +244,15 @@ void settleOnTarget(Scene const &scene, CycleState &s, TimeStepLimit &next)
   prepareWork(s.pairs, s.dof_nodes, s.work);
   computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
   next = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
-  if (s.tracers.empty())
-    return;
-  std::vector<Vector2> points;
-  for (Tracer const &tracer : s.tracers)
-    points.push_back(tracer.position);
-  std::vector<long long> const cell = locatePoints(scene.mesh, points, *scene.exchange);
-  for (std::size_t i = 0; i < cell.size(); ++i)
-    s.tracers[i].cell = cell[i];
+  for (std::vector<Tracer> *const tracers : {&s.tracers, &s.bond_tracers})
+  {
+    std::vector<Vector2> points;
+    for (Tracer const &tracer : *tracers)
+      points.push_back(tracer.position);
+    std::vector<long long> const cell = locatePoints(scene.mesh, points, *scene.exchange);
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      (*tracers)[i].cell = cell[i];
+  }
 }
 
 /// What has no meaning together. \throw std::runtime_error
@@ -319,9 +321,13 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
                         scene.lagrange.subzonal_pressure, work);
   }
 
+  if (s.cycle == 0)
+    placeBonds(scene, s);
   PredictionSums prediction;
   TravelReport travel;
   double dt = s.dt;
+  View<double *[3]> const stress =
+      scene.constraint.method == ConstraintMethod::Nitsche ? pairStress(s, scene.materials) : View<double *[3]>();
   std::vector<RigidBody> const bodies_n = s.bodies;
   for (;; dt *= 0.5, ++report.repeats)
   {
@@ -333,9 +339,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     {
       PhaseTimer timer("constrain", times.constrain);
       s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, dt);
-      report.constraint =
-          constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass, s.state.velocity,
-                              work.predicted, work.half, bodies_n, s.bodies, dt, scene.constraint, exchange);
+      report.constraint = constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass,
+                                              s.state.velocity, work.predicted, work.half, bodies_n, s.bodies, dt,
+                                              stress, s.bonds, scene.constraint, exchange);
     }
     // What moves with its mesh outruns no neighbourhood: only the sheared and thinned cells of the reference would pay.
     if (scene.kinematics == Kinematics::Lagrangian)
@@ -348,6 +354,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       break;
   }
   report.dt = dt;
+  report.broken_bonds = breakBonds(report.constraint.bond_load, scene.constraint, dt, s.bonds);
   if (scene.kinematics != Kinematics::Lagrangian)
   {
     PhaseTimer timer("exchange", times.exchange);
@@ -364,6 +371,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   }
   moveBodies(s.bodies, dt);
   moveTracers(pointField(scene, s), work.half, dt, scene.kinematics == Kinematics::Lagrangian, exchange, s.tracers);
+  moveBonds(scene, s, dt);
 
   if (scene.kinematics == Kinematics::Lagrangian)
   {

@@ -65,6 +65,8 @@ struct CycleState
   RigidRows rigid_rows;              // what the bodies fill at
   std::vector<RigidBody> rigid_pose; // these poses
   std::vector<Tracer> tracers;       // moved with v^{n+1/2}
+  std::vector<Bond> bonds;           // of the pairs whose bonds can break; found in the first cycle
+  std::vector<Tracer> bond_tracers;  // what moves them
   double time = 0.0;                 // [s], of the records; velocities are half a step behind
   double dt = 0.0;                   // of the next cycle [s]
   TimeStepLimit limit;               // what sets it
@@ -86,6 +88,7 @@ struct CycleReport
 {
   double dt = 0.0;
   int repeats = 0;           // cycle repeated with half the time step: a node would have outrun its neighbourhood
+  int broken_bonds = 0;      // in this cycle
   long long light_nodes = 0; // light dof nodes moved with their pair
   ReconstructionReport reconstruction;
   ConstraintReport constraint;

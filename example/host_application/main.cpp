@@ -126,7 +126,7 @@ Scene makeScene(Mesh const &mesh, Exchange const &exchange)
   open.kind = BoundaryKind::Outflow;
   scene.boundary = buildBoundaryConditions(mesh, deviceCopy("boundary", std::vector<Boundary>{open, open}));
   scene.materials = deviceCopy("materials", makeMaterials());
-  scene.constraint.interaction = View<int **>("interaction", 2, 2); // zero: Interaction::Sliding
+  scene.constraint.interaction = View<PairInteraction **>("interaction", 2, 2); // of itself: sliding
   scene.exchange = &exchange;
   return scene;
 }

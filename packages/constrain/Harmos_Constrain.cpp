@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Constrain.hpp>
 #include <Harmos_ConstraintSums.hpp>
+#include <Harmos_ExplicitImpulses.hpp>
 #include <Harmos_StateExchange.hpp>
 
 #include <stdexcept>
@@ -83,34 +84,42 @@ bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions co
   return true;
 }
 
-/// The rows of this rank and its halo; without interface on any rank one reduction tells that there are none.
-ContactRows findRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
-                     FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
-                     ConstraintOptions const &options, Exchange const &exchange)
+} // namespace
+
+ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                            FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
+                            std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange)
 {
+  if (options.method == ConstraintMethod::Nodal || options.method == ConstraintMethod::Merged)
+  {
+    ContactRows rows = buildNodalRows(mesh, pairs, dof_nodes, regions, conditions, table, options);
+    exchange.sum(&rows.num_multipliers, 1);
+    if (rows.num_multipliers > 0)
+      exchangeContactRows(mesh, pairs, table, exchange, rows);
+    return rows;
+  }
   InterfaceSegments segments;
   if (!nothingToSeparate(dof_nodes, conditions))
-    segments = findInterfaceSegments(mesh, pairs, regions, conditions);
+    segments = findInterfaceSegments(mesh, pairs, regions, conditions, options.placement);
   double const largest = exchange.max(largestSegment(mesh, segments));
   if (largest == 0.0)
     return {};
   SegmentBins const bins = binSegments(segments, largest);
   View<RayHit *> const hit = castRays(mesh, segments, bins);
-  ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, table, options);
+  ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, conditions, table, bonds, options);
   exchange.sum(&rows.num_multipliers, 1);
   if (rows.num_multipliers > 0)
     exchangeContactRows(mesh, pairs, table, exchange, rows);
   return rows;
 }
 
-} // namespace
-
 ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs,
                                      NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                      BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                      View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
                                      View<double *[2]> const &half, std::vector<RigidBody> const &bodies_n,
-                                     std::vector<RigidBody> &bodies, double dt, ConstraintOptions const &options,
+                                     std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
+                                     std::vector<Bond> const &bonds, ConstraintOptions const &options,
                                      Exchange const &exchange)
 {
   ScopedRegion const region("Harmos::constrain");
@@ -122,9 +131,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   report.body_torque.assign(bodies.size(), 0.0);
   std::size_t const width = static_cast<std::size_t>(num_materials) + 1;
   report.pair_force.assign(width * width, PairForce());
+  report.bond_load.assign(bonds.size(), BondLoad());
 
   BodyTable const table = buildBodyTable(bodies, num_materials);
-  ContactRows const rows = findRows(mesh, pairs, dof_nodes, regions, conditions, table, options, exchange);
+  ContactRows const rows =
+      findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange);
   report.rows = rows.num_multipliers;
   if (rows.num_multipliers == 0)
   {
@@ -132,7 +143,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
     return report;
   }
   ContactSystem const system = buildContactSystem(rows, dof_nodes, conditions, dof_mass, predicted, table, bodies, dt);
-  MultiplierSolution const solution = solveMultipliers(system, rows, dt, options, exchange);
+  bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
+  MultiplierSolution const solution =
+      is_explicit ? explicitImpulses({mesh, pairs, velocity_n, buildBodyTable(bodies_n, num_materials), pair_stress},
+                                     system, rows, dt, options, exchange)
+                  : solveMultipliers(system, rows, dt, options, exchange);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;
@@ -142,6 +157,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   exchangeDofVelocities(exchange, 3, pairs, half);
   sumConstraint(system, rows, solution, mesh, dof_nodes, velocity_n, half,
                 buildBodyTable(meanBodies(bodies_n, bodies), num_materials), num_materials, exchange, report);
+  sumBondLoads(rows, solution.impulse, exchange, report.bond_load);
   return report;
 }
 

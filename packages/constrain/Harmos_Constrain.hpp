@@ -4,30 +4,18 @@
 
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_ConstraintOptions.hpp>
 #include <Harmos_Exchange.hpp>
 #include <Harmos_FilledRegions.hpp>
 #include <Harmos_RigidBody.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace Harmos
 {
 
-enum class Interaction : int
-{
-  Sliding, // frictionless, free to separate
-  Tied     // no relative velocity at all
-};
-
-struct ConstraintOptions
-{
-  View<int **> interaction; // (materials, materials), symmetric: Interaction
-  double tolerance = 1e-8;  // of max(largest predicted |G v|, 1e-6 speed_scale)
-  int max_iterations = 1000;
-  double speed_scale = 0.0;      // of the scene [m/s]
-  double shortest_segment = 0.1; // of the cell size; shorter segments carry no row
-  double exposed_face = 0.5;     // least exposed part of a cell face that carries a row
-};
-
-/// One multiplier (two when tied): material_a inside, material_b outside, n leaves a.
+/// One multiplier (two with a bond or friction): material_a inside, material_b outside, n leaves a.
 struct ContactRow
 {
   long long key;              // global cell of the slave segment * 64 + its number there: the order of all sums
@@ -40,7 +28,8 @@ struct ContactRow
   double gap;            // along n, >= 0 [length]
   double length;         // of the slave segment [length]
   int tied;
-  double multiplier[2]; // impulse along n, and along perpendicular(n) when tied [N s/m]
+  double friction; // coefficient
+  int bond;        // number of the nearest bond of a pair whose bonds can break, -1: none
 };
 
 /// Impulse and area of contact between two materials, for contact.csv: on a by b.
@@ -48,7 +37,15 @@ struct PairForce
 {
   Vector2 impulse = {0.0, 0.0};
   double normal_impulse = 0.0;
-  double area = 0.0; // length of the loaded segments
+  double area = 0.0;    // length of the loaded segments
+  double squares = 0.0; // sum of (normal impulse)^2 / length over them
+
+  /// Root mean square deviation, by length, of the normal impulses per length from their mean. [N s/m^2]
+  double deviation() const
+  {
+    double const mean = area > 0.0 ? normal_impulse / area : 0.0;
+    return area > 0.0 ? std::sqrt(std::max(squares / area - mean * mean, 0.0)) : 0.0;
+  }
 };
 
 struct ConstraintReport
@@ -63,13 +60,16 @@ struct ConstraintReport
   std::vector<Vector2> body_impulse;     // by rigid body
   std::vector<double> body_torque;       // about its centre
   std::vector<PairForce> pair_force;     // (materials + 1)^2, row-major; last index: contact wall
+  std::vector<BondLoad> bond_load;       // by bond
 };
 
 /// \brief Correct the predicted velocities by the impulses of contact (and ties) between all bodies.
 ///
 /// Finds impulses p with v = v* + M^-1 P G^T p (P: node conditions) such that every sliding row has
 /// gap/dt + G v >= 0, p >= 0, p (gap/dt + G v) = 0, and every tied row G v = 0 in both directions; G v = n . (v_b -
-/// v_a) at the point of the row's slave segment, n from a to b. The same p acts on both sides: momentum is exact.
+/// v_a) at the point of the row's slave segment, n from a to b. A row with friction has an impulse p_t across n too,
+/// |p_t| <= mu p, that stops the sliding or, at its bound, opposes it. The same p acts on both sides: momentum is
+/// exact.
 ///
 /// \param dof_mass   num_dof_nodes [kg/m]
 /// \param velocity_n v^{n-1/2}, num_dof_nodes [m/s]: for the work of the impulses
@@ -80,6 +80,8 @@ struct ConstraintReport
 /// \param bodies_n   Rigid bodies with the velocities before the cycle.
 /// \param bodies     In: predicted velocities. Out: v^{n+1/2}. Poses are not changed.
 /// \param dt         Of the cycle [s]
+/// \param pair_stress num_pairs: Cauchy stress xx, yy, xy [Pa]; Nitsche's method alone reads it
+/// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
 /// \return Sums over all ranks. `converged` is false where the tolerance was not reached: the velocities are then those
 /// of
 ///         the last iterate, which conserves momentum all the same.
@@ -90,8 +92,20 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                      View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
                                      View<double *[2]> const &half, std::vector<RigidBody> const &bodies_n,
-                                     std::vector<RigidBody> &bodies, double dt, ConstraintOptions const &options,
+                                     std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
+                                     std::vector<Bond> const &bonds, ConstraintOptions const &options,
                                      Exchange const &exchange);
+
+/// The bonds of a scene at its start: one for each slave cell and pair of materials whose bond can break, where they
+/// touch. In the order of the global cells, the same on all ranks. Collective.
+std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                            FilledRegions const &regions, BoundaryConditions const &conditions,
+                            std::vector<RigidBody> const &bodies, ConstraintOptions const &options,
+                            Exchange const &exchange);
+
+/// Break the bonds that carry more than their materials' bond bears (Harmos::breaks). \return How many broke.
+int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double dt,
+               std::vector<Bond> &bonds);
 
 } // namespace Harmos
 

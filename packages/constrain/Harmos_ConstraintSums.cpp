@@ -97,14 +97,14 @@ class Sums
 public:
   Sums(int num_materials, std::size_t num_bodies)
       : width_(static_cast<std::size_t>(num_materials) + 1), num_bodies_(num_bodies),
-        value_(4 + 3 * num_bodies + 4 * width_ * width_, 0.0)
+        value_(4 + 3 * num_bodies + 5 * width_ * width_, 0.0)
   {
   }
   double &loss() { return value_[0]; }
   double &work() { return value_[1]; }
   double *external() { return &value_[2]; }
   double *body(std::size_t b) { return &value_[4 + 3 * b]; }
-  double *pair(int a, int b) { return &value_[4 + 3 * num_bodies_ + 4 * (index(a) * width_ + index(b))]; }
+  double *pair(int a, int b) { return &value_[4 + 3 * num_bodies_ + 5 * (index(a) * width_ + index(b))]; }
   void over(Exchange const &exchange) { exchange.sum(value_.data(), static_cast<int>(value_.size())); }
   std::size_t width() const { return width_; }
 
@@ -121,6 +121,7 @@ void addPair(double *sum, Vector2 const &impulse, double normal_impulse, double 
   sum[1] += impulse[1];
   sum[2] += normal_impulse;
   sum[3] += length;
+  sum[4] += length > 0.0 ? normal_impulse * normal_impulse / length : 0.0;
 }
 
 void addRow(ContactRow const &row, RowWork const &work, double normal_impulse, bool loaded,
@@ -199,7 +200,7 @@ void sumConstraint(ContactSystem const &system, ContactRows const &rows, Multipl
       std::size_t const w = sums.width();
       std::size_t const i = a < 0 ? w - 1 : static_cast<std::size_t>(a),
                         j = b < 0 ? w - 1 : static_cast<std::size_t>(b);
-      report.pair_force[i * w + j] = {{sum[0], sum[1]}, sum[2], sum[3]};
+      report.pair_force[i * w + j] = {{sum[0], sum[1]}, sum[2], sum[3], sum[4]};
     }
 }
 

@@ -86,20 +86,19 @@ void ContactOperator::residual(View<double *[2]> const &x, View<double *[2]> con
       });
 }
 
-double ContactOperator::violation(View<double *[2]> const &p, View<double *[2]> const &r) const
+double ContactOperator::violation(View<double *[2]> const &p, View<double *[2]> const &r,
+                                  View<double *> const &reach) const
 {
   ContactSystem const s = system_;
   View<double *[2]> const impulse = p, residual = r;
+  View<double *> const bound = reach;
   double violation = 0.0;
   Kokkos::parallel_reduce(
       "Harmos::constrain::violation", RangePolicy(0, s.num_own),
       KOKKOS_LAMBDA(int i, double &largest) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
-        {
-          double const value = residual(row, k);
-          largest = Math::max(largest, s.tied(row) || impulse(row, k) > 0.0 ? Math::fabs(value) : -value);
-        }
+          largest = Math::max(largest, s.bounds(row, k, bound(row)).violation(impulse(row, k), residual(row, k)));
       },
       Kokkos::Max<double>(violation));
   return exchange_.max(s.num_own > 0 ? Math::max(violation, 0.0) : 0.0);

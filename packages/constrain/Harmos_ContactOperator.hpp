@@ -24,8 +24,8 @@ public:
     return body_change_;
   }
 
-  /// Largest |r| over rows with p > 0 or tied, and max(0, -r) over the others; the same on all ranks. Collective.
-  double violation(View<double *[2]> const &p, View<double *[2]> const &r) const;
+  /// Largest ImpulseBounds::violation of all ranks' rows. \param reach Bounds across n. Collective.
+  double violation(View<double *[2]> const &p, View<double *[2]> const &r, View<double *> const &reach) const;
 
   /// Largest predicted |G v*| of all ranks' rows. Collective.
   double largestPredicted(double dt) const;

@@ -31,55 +31,65 @@ BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials
 namespace
 {
 
-/// What a segment faces, where its normal may serve a fit: in the order of the bins.
-struct Facing
+/// The segments whose normals may serve a fit: those that face another one, near enough to parallel.
+struct FacingSegments
 {
-  double gap;
-  int material; // -2: nothing, or too far from parallel
+  SegmentBins bins;   // of these alone
+  View<RayHit *> hit; // of all segments
+  View<int *> faced;  // materials of what they face, in the order of the bins
 };
 
-View<Facing *> facings(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit, SegmentBins const &bins)
+FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
+                              SegmentBins const &bins)
 {
   constexpr double least_cosine = 0.9; // of the facets that the fit takes
   int const count = static_cast<int>(bins.item.extent(0));
-  View<Facing *> const facing(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::facing"), count);
+  View<int *> const serves(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::serves"), count);
   View<BinnedSegment *> const item = bins.item;
   Kokkos::parallel_for(
-      "Harmos::constrain::facings", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
+      "Harmos::constrain::serves", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
         RayHit const &h = hit(item(i).segment);
-        bool const serves = h.segment >= 0 && h.cosine >= least_cosine;
-        facing(i) = {h.gap, serves ? segment(h.segment).material : -2};
+        serves(i) = h.segment >= 0 && h.cosine >= least_cosine ? 1 : 0;
       });
+  FacingSegments facing{chosenItems(bins, serves), hit, {}};
+  int const num_facing = static_cast<int>(facing.bins.item.extent(0));
+  View<int *> const faced(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::faced"), num_facing);
+  View<BinnedSegment *> const chosen = facing.bins.item;
+  Kokkos::parallel_for(
+      "Harmos::constrain::faced", RangePolicy(0, num_facing),
+      KOKKOS_LAMBDA(int i) { faced(i) = segment(hit(chosen(i).segment).segment).material; });
+  facing.faced = faced;
   return facing;
 }
 
 /// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
 /// `target` is what the segment's ray meets, a segment of another material (no wall).
-KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, View<Facing *> const &facing,
-                                             SegmentBins const &bins, double shortest, int slave, int target)
+KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, FacingSegments const &facing,
+                                             double shortest, int slave, int target)
 {
   InterfaceSegment const &s = segment(slave);
   double const h = s.cell_size, inverse_h = 1.0 / h;
   int const material_a = s.material, material_b = segment(target).material;
   FitSamples samples;
   Vector2 const reach{4.0 * h, 4.0 * h};
-  bins.forEach(s.point - reach, s.point + reach,
-               [&](int place, BinnedSegment const &c)
-               {
-                 bool const of_a = c.material == material_a;
-                 if ((!of_a && c.material != material_b) ||
-                     facing(place).material != (of_a ? material_b : material_a) || (!of_a && c.length < shortest * h))
-                   return;
-                 Vector2 const offset = inverse_h * (c.midpoint - s.point);
-                 double const length = inverse_h * c.length;
-                 double const weight = fitWeight(length, dot(offset, offset), inverse_h * facing(place).gap);
-                 if (!(weight > 0.0))
-                   return;
-                 Vector2 const apart = segment(c.segment).cell_centre - s.cell_centre;
-                 if (Math::max(Math::fabs(dot(apart, s.lattice[0])), Math::fabs(dot(apart, s.lattice[1]))) > 3.5)
-                   return; // beyond the 7 x 7 cells
-                 samples.push({offset, of_a ? c.normal : -c.normal, length, weight, of_a ? 0 : 1});
-               });
+  facing.bins.forEach(
+      s.point - reach, s.point + reach,
+      [&](int place, BinnedSegment const &c)
+      {
+        bool const of_a = c.material == material_a;
+        if ((!of_a && c.material != material_b) || facing.faced(place) != (of_a ? material_b : material_a) ||
+            (!of_a && c.length < shortest * h))
+          return;
+        Vector2 const offset = inverse_h * (c.midpoint - s.point);
+        double const length = inverse_h * c.length;
+        double const weight = fitWeight(length, dot(offset, offset), inverse_h * facing.hit(c.segment).gap);
+        if (!(weight > 0.0))
+          return;
+        Vector2 const apart = segment(c.segment).cell_centre - s.cell_centre;
+        if (Math::max(Math::fabs(dot(apart, s.lattice[0])), Math::fabs(dot(apart, s.lattice[1]))) > 3.5)
+          return; // beyond the 7 x 7 cells
+        samples.push({offset, of_a ? c.normal : -c.normal, length, weight, of_a ? 0 : 1});
+      });
   return fitNormal(samples, normalised(s.normal - segment(target).normal));
 }
 
@@ -90,10 +100,11 @@ struct RowBuilder
   NodeMaterialPairs dof_nodes;
   View<InterfaceSegment *> segment;
   View<RayHit *> hit;
-  View<Facing *> facing;
-  SegmentBins bins;
+  FacingSegments facing;
   BodyTable bodies;
-  View<int **> interaction;
+  View<Boundary *> boundary;
+  View<Bond *> bond;
+  View<PairInteraction **> interaction;
   double shortest_segment;
   double exposed_face;
 
@@ -111,7 +122,7 @@ struct RowBuilder
   {
     InterfaceSegment const &a = segment(i);
     if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0 ||
-        a.length < shortest_segment * a.cell_size || (a.face >= 0 && a.exposed < exposed_face))
+        a.parts * a.length < shortest_segment * a.cell_size || (a.face >= 0 && a.exposed < exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))))
@@ -127,8 +138,7 @@ struct RowBuilder
     if (!carriesRow(i))
       return none;
     InterfaceSegment const &b = segment(hit(i).segment);
-    Vector2 const n =
-        b.material < 0 ? -b.normal : contactNormal(segment, facing, bins, shortest_segment, i, hit(i).segment);
+    Vector2 const n = b.material < 0 ? -b.normal : contactNormal(segment, facing, shortest_segment, i, hit(i).segment);
     return dot(segment(i).normal, n) < fit_least_cosine ? none : n;
   }
 
@@ -138,6 +148,47 @@ struct RowBuilder
     shapeFunctionsAt(cellQuadrilateral(mesh, s.cell), point, weight);
     for (int k = 0; k < 4; ++k)
       dof[k] = body == -1 ? pairs.dof_node(s.pair, k) : -1;
+  }
+
+  /// Number of the nearest bond of the row's materials within reach; ties to the lower number.
+  KOKKOS_INLINE_FUNCTION int nearestBond(ContactRow const &row) const
+  {
+    int const low = Math::min(row.material_a, row.material_b), high = Math::max(row.material_a, row.material_b);
+    double nearest = bond_reach * bond_reach * mesh.cell_area(row.cell_a);
+    int found = -1;
+    for (int i = 0; i < static_cast<int>(bond.extent(0)); ++i)
+    {
+      Vector2 const apart = bond(i).point - row.point;
+      if (bond(i).material_a == low && bond(i).material_b == high && dot(apart, apart) < nearest)
+      {
+        nearest = dot(apart, apart);
+        found = i;
+      }
+    }
+    return found;
+  }
+
+  /// What acts along the row besides its normal contact.
+  KOKKOS_INLINE_FUNCTION void setInteraction(InterfaceSegment const &b, ContactRow &row) const
+  {
+    row.bond = -1;
+    if (b.material < 0)
+    {
+      row.friction = boundary(mesh.face_boundary(b.cell, b.face)).friction;
+      return;
+    }
+    PairInteraction const &law = interaction(row.material_a, row.material_b);
+    if (law.kind == Interaction::Friction)
+      row.friction = law.friction;
+    if (law.kind != Interaction::Bonded)
+      return;
+    if (law.strength.limited())
+    {
+      row.bond = nearestBond(row);
+      row.tied = row.bond >= 0 && !bond(row.bond).broken ? 1 : 0;
+    }
+    else
+      row.tied = 1;
   }
 
   KOKKOS_INLINE_FUNCTION ContactRow makeRow(int i, Vector2 const &normal) const
@@ -156,7 +207,7 @@ struct RowBuilder
     row.normal = normal;
     row.gap = hit(i).gap;
     row.length = a.length;
-    row.tied = b.material >= 0 && interaction(a.material, b.material) == static_cast<int>(Interaction::Tied) ? 1 : 0;
+    setInteraction(b, row);
     fillSide(a, a.point, row.body_a, row.dof_a, row.weight_a);
     fillSide(b, a.point + row.gap * a.normal, row.body_b, row.dof_b, row.weight_b);
     return row;
@@ -167,16 +218,18 @@ struct RowBuilder
 
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                              InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
-                             BodyTable const &bodies, ConstraintOptions const &options)
+                             BoundaryConditions const &conditions, BodyTable const &bodies,
+                             std::vector<Bond> const &bonds, ConstraintOptions const &options)
 {
   RowBuilder const builder{mesh,
                            pairs,
                            dof_nodes,
                            segments.segment,
                            hit,
-                           facings(segments.segment, hit, bins),
-                           bins,
+                           facingSegments(segments.segment, hit, bins),
                            bodies,
+                           conditions.boundary,
+                           deviceCopy("Harmos::constrain::bond", bonds),
                            options.interaction,
                            options.shortest_segment,
                            options.exposed_face};
@@ -213,7 +266,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
           return;
         row(r) = builder.makeRow(i, {normal(i, 0), normal(i, 1)});
         own(r) = r;
-        multipliers += 1 + row(r).tied;
+        multipliers += row(r).tied || row(r).friction > 0.0 ? 2 : 1;
       },
       rows.num_multipliers);
   return rows;

@@ -54,7 +54,21 @@ BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials
 /// between sides that share their dof nodes, and where the segment's own normal is over 45 degrees off the fitted one.
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                              InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
-                             BodyTable const &bodies, ConstraintOptions const &options);
+                             BoundaryConditions const &conditions, BodyTable const &bodies,
+                             std::vector<Bond> const &bonds, ConstraintOptions const &options);
+
+/// One row for every two materials that move a node (Merged: for every two that follow each other in its list, tied),
+/// where they move it: G v = n . (v_b - v_a) of the node's own dofs, n the direction from the volume of a to that of b
+/// in the cells around the node. The slave cell is the first around the node that holds material a.
+ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                           FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
+                           ConstraintOptions const &options);
+
+/// The rows of this rank, with those of its halo where there are several ranks: segments, rays, normals, rows. Without
+/// interface on any rank one reduction tells that there are none. Collective.
+ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                            FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
+                            std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange);
 
 /// Give every rank the rows of its halo to depth 3. With one rank: nothing.
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,

@@ -145,6 +145,7 @@ void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyT
               View<int *> const &free_number, double dt, ContactSystem &system)
 {
   system.tied = unset<int *>("Harmos::constrain::tied", rows.count);
+  system.friction = unset<double *>("Harmos::constrain::friction", rows.count);
   system.normal = unset<double *[2]>("Harmos::constrain::row_normal", rows.count);
   system.weight = unset<double *[8]>("Harmos::constrain::row_weight", rows.count);
   system.predicted = unset<double *[2]>("Harmos::constrain::row_predicted", rows.count);
@@ -156,6 +157,7 @@ void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyT
       "Harmos::constrain::fillRows", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) {
         ContactRow const &r = row(i);
         s.tied(i) = r.tied;
+        s.friction(i) = r.friction;
         Vector2 relative{0.0, 0.0};
         for (int side = 0; side < 2; ++side)
         {
@@ -182,7 +184,7 @@ void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyT
           s.normal(i, side) = r.normal[side];
         }
         s.predicted(i, 0) = dot(r.normal, relative) + (r.tied ? 0.0 : Math::max(r.gap, 0.0) / dt);
-        s.predicted(i, 1) = r.tied ? dot(perpendicular(r.normal), relative) : 0.0;
+        s.predicted(i, 1) = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
       });
 }
 

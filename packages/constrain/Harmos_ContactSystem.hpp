@@ -7,11 +7,35 @@
 namespace Harmos
 {
 
+/// What an impulse may be.
+struct ImpulseBounds
+{
+  double low, high;
+
+  KOKKOS_INLINE_FUNCTION double clip(double p) const { return Math::min(Math::max(p, low), high); }
+  KOKKOS_INLINE_FUNCTION bool inside(double p) const { return p > low && p < high; }
+
+  /// The part of the gradient r of an impulse at a bound that leads away from it.
+  KOKKOS_INLINE_FUNCTION double inward(double p, double r) const
+  {
+    return low < high && ((r < 0.0 && p <= low) || (r > 0.0 && p >= high)) ? r : 0.0;
+  }
+
+  /// The part of a step's direction -g that the bounds leave to a step of this length.
+  KOKKOS_INLINE_FUNCTION double reduced(double p, double g, double step) const
+  {
+    return g > 0.0 ? Math::min(g, (p - low) / step) : Math::max(g, (p - high) / step);
+  }
+
+  /// How far p and r are from complementarity: |r| between the bounds, its inward part at them.
+  KOKKOS_INLINE_FUNCTION double violation(double p, double r) const { return Math::fabs(inside(p) ? r : inward(p, r)); }
+};
+
 /// The complementarity problem of the contact rows, without a matrix.
 ///
-/// A row has two directions, d(row, 0) = n and, where tied, d(row, 1) = perpendicular(n), and an impulse p for each.
-/// Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*), b = G v* + max(gap, 0)/dt (tied: no gap).
-/// Dof nodes that rows touch are numbered compactly; rows_of gathers in key order.
+/// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
+/// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*), b = G v* + max(gap, 0)/dt (tied: no
+/// gap). Dof nodes that rows touch are numbered compactly; rows_of gathers in key order.
 struct ContactSystem
 {
   int num_rows = 0; // with the halo's
@@ -22,6 +46,7 @@ struct ContactSystem
 
   View<int *> own;             // num_own: rows
   View<int *> tied;            // num_rows
+  View<double *> friction;     // num_rows: coefficient
   View<double *[2]> normal;    // num_rows
   View<int *[8]> dof;          // num_rows: compact dof of side a's corners (0..3) and b's (4..7), -1: none
   View<double *[8]> weight;    // num_rows: signed shape functions, - for a, + for b
@@ -39,12 +64,21 @@ struct ContactSystem
   View<double *[3]> body_scale;        // num_free: 1, 1, radius of gyration: makes the components alike
   HostView<int *> free_number;         // num_free: number of the body
 
-  KOKKOS_INLINE_FUNCTION int directions(int row) const { return 1 + tied(row); }
+  KOKKOS_INLINE_FUNCTION int directions(int row) const { return tied(row) || friction(row) > 0.0 ? 2 : 1; }
 
   KOKKOS_INLINE_FUNCTION Vector2 direction(int row, int k) const
   {
     Vector2 const n{normal(row, 0), normal(row, 1)};
     return k == 0 ? n : perpendicular(n);
+  }
+
+  /// \param reach Largest |impulse| across n by friction.
+  KOKKOS_INLINE_FUNCTION ImpulseBounds bounds(int row, int k, double reach) const
+  {
+    constexpr double none = 1.0e300;
+    if (tied(row))
+      return {-none, none};
+    return k == 0 ? ImpulseBounds{0.0, none} : ImpulseBounds{-reach, reach};
   }
 
   /// Derivative of the row's velocity along direction k with respect to component c (Vx, Vy, omega) of a side's body.

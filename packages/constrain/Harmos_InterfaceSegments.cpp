@@ -157,15 +157,29 @@ KOKKOS_INLINE_FUNCTION void exposedPieces(double length, EdgeCovers const &cover
   }
 }
 
-/// Both halves of a free face of a body-fitted mesh. With one point a face, corners that sink and rise by turns satisfy
-/// every row: nothing but the stiffness of long cells would hold them. Two points leave no such motion.
-KOKKOS_INLINE_FUNCTION void halves(double length, EdgePieces &pieces)
+/// Beyond the edge lies one thing: a wall, void or a pure cell.
+KOKKOS_INLINE_FUNCTION void wholeEdge(double length, EdgePieces &pieces)
 {
-  pieces.count = 2;
-  pieces.total = length;
-  pieces.end[0] = pieces.begin[1] = 0.5 * length;
+  pieces.count = 1;
+  pieces.total = pieces.end[0] = length;
   pieces.begin[0] = 0.0;
-  pieces.end[1] = length;
+}
+
+/// Points of a piece: how many, and how far from its ends where there are two. Free faces of a body-fitted mesh have
+/// two: with one point a face, corners that sink and rise by turns satisfy every row, and nothing but the stiffness of
+/// long cells would hold them.
+struct PiecePoints
+{
+  int count;
+  double inset; // part of the piece's length
+};
+
+KOKKOS_INLINE_FUNCTION PiecePoints piecePoints(Placement placement, bool free)
+{
+  constexpr double end_inset = 1e-3; // the ray of an end itself would graze the piece that it looks at
+  if (placement == Placement::SegmentEnds)
+    return {2, end_inset};
+  return {free || placement == Placement::GaussPoints ? 2 : 1, gauss_point};
 }
 
 // What fills a cell: the material of a pure one, else one of these.
@@ -181,6 +195,7 @@ struct SegmentFinder
   View<Boundary *> boundary;
   View<int *> filling;
   View<InterfaceSegment *> segment;
+  Placement placement;
 
   KOKKOS_INLINE_FUNCTION bool contactWall(int cell, int face) const
   {
@@ -239,32 +254,37 @@ struct SegmentFinder
     if (outer ? !free && !contactWall(cell, face) : across >= 0 && filling(across / 4) == material)
       return 0;
     EdgePieces pieces;
-    if (free)
-      halves(edge.length, pieces);
+    if (outer || (across >= 0 && filling(across / 4) != mixed_filling))
+      wholeEdge(edge.length, pieces);
     else
     {
       EdgeCovers covers;
-      if (!outer)
-        coverBy(face < 0 ? cell : across / 4, face < 0 ? pair : -1, edge, frame.tolerance, covers);
+      coverBy(face < 0 ? cell : across / 4, face < 0 ? pair : -1, edge, frame.tolerance, covers);
       exposedPieces(edge.length, covers, material, frame.tolerance, pieces);
     }
+    PiecePoints const points = piecePoints(placement, free);
     double const exposed = face < 0 ? 1.0 : pieces.total / frame.face[face].length;
-    for (int i = 0; i < pieces.count && first + i < static_cast<int>(segment.extent(0)); ++i)
+    int const count = pieces.count * points.count;
+    for (int i = 0; i < count && first + i < static_cast<int>(segment.extent(0)); ++i)
     {
       InterfaceSegment &s = segment(first + i);
       s = blank;
-      s.midpoint = edge.start + 0.5 * (pieces.begin[i] + pieces.end[i]) * edge.direction;
-      s.point =
-          free ? edge.start + (i == 0 ? gauss_point : 1.0 - gauss_point) * edge.length * edge.direction : s.midpoint;
+      int const half = i % points.count;
+      double const begin = pieces.begin[i / points.count], length = pieces.end[i / points.count] - begin;
+      s.length = length / points.count;
+      s.midpoint = edge.start + (begin + (half + 0.5) * s.length) * edge.direction;
+      s.point = s.midpoint;
+      if (points.count == 2)
+        s.point = edge.start + (begin + (half == 0 ? points.inset : 1.0 - points.inset) * length) * edge.direction;
       s.normal = edge.normal;
-      s.length = pieces.end[i] - pieces.begin[i];
+      s.parts = points.count;
       s.exposed = exposed;
       s.number = number + i;
       s.pair = pair;
       s.material = material;
       s.face = face;
     }
-    return pieces.count;
+    return count;
   }
 
   static KOKKOS_INLINE_FUNCTION InterfaceSegment blankSegment(int cell, CellFrame const &frame)
@@ -327,6 +347,7 @@ struct SegmentFinder
         s.normal = -face.normal;
         s.length = face.length;
         s.exposed = 1.0;
+        s.parts = 1;
         s.number = count;
         s.pair = s.material = -1;
         s.face = k;
@@ -382,10 +403,10 @@ int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int n
 } // namespace
 
 InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                                        BoundaryConditions const &conditions)
+                                        BoundaryConditions const &conditions, Placement placement)
 {
   constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
-  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, {}};
+  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, {}, placement};
   finder.filling = unset<int>("Harmos::constrain::filling", mesh.num_cells);
   int num_visited = 0;
   View<int *> const visited = interfaceCells(mesh, finder, num_visited);

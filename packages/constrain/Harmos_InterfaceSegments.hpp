@@ -3,6 +3,7 @@
 #define HARMOS_INTERFACE_SEGMENTS_HPP
 
 #include <Harmos_BoundaryConditions.hpp>
+#include <Harmos_ConstraintOptions.hpp>
 #include <Harmos_FilledRegions.hpp>
 
 namespace Harmos
@@ -15,7 +16,7 @@ constexpr int max_cell_segments = 64;
 struct InterfaceSegment
 {
   Vector2 midpoint;
-  Vector2 point;       // where its ray starts and its row stands: the midpoint, or a Gauss point of a free face
+  Vector2 point;       // where its ray starts and its row stands: the midpoint, or one of two points of the whole piece
   Vector2 normal;      // unit; leaves the region (a wall's: points into the domain)
   Vector2 cell_centre; // mean of the cell's corners
   Vector2 lattice[2];  // d . lattice[i] counts the cells in a distance d along the cell's i-th direction [1/length]
@@ -27,6 +28,7 @@ struct InterfaceSegment
   int pair;     // -1: wall
   int material; // -1: wall
   int face;     // of the cell; -1: an interface inside the cell
+  int parts;    // the piece that this is a part of is so many times as long
 };
 
 /// All segments of this rank, ordered by cell and number within the cell (so by key).
@@ -41,13 +43,14 @@ struct InterfaceSegments
 ///
 /// An edge is split where the material beyond it changes (void counts). Contact walls are segments of material -1; a
 /// region's edge on one is exposed; other domain boundaries carry nothing; a face with neither neighbour nor boundary
-/// is a free surface (of a body-fitted block), in two segments, each with a Gauss point. Cells of depth
+/// is a free surface (of a body-fitted block), in two halves, each with a Gauss point. Other pieces are cut in two
+/// halves where `placement` wants two points. Cells of depth
 /// mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
 ///
 /// Cost: five integers a cell are compared, the rest follows the interfaces.
 /// Throws std::runtime_error when a cell has more than max_cell_segments.
 InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                                        BoundaryConditions const &conditions);
+                                        BoundaryConditions const &conditions, Placement placement);
 
 } // namespace Harmos
 

@@ -9,9 +9,7 @@ namespace Harmos
 namespace
 {
 
-constexpr double no_bound = 1.0e300;
-
-/// Arrays over rows; the values of tied rows have no bound.
+/// Arrays over rows.
 struct Conjugate
 {
   View<double *[2]> p;         // impulses, feasible
@@ -19,19 +17,26 @@ struct Conjugate
   View<double *[2]> direction; // of p
   View<double *[2]> product;   // A direction
   View<double *[2]> term;      // own rows: summands
+  View<double *> reach;        // bounds across n by friction
   double fixed_step = 1.9;     // of projected gradient steps, below 2 / (norm of the scaled operator)
+  bool two_sided = false;      // some row has friction
 
   explicit Conjugate(ContactSystem const &s)
       : p("Harmos::constrain::impulse", s.num_rows), r("Harmos::constrain::residual", s.num_rows),
         direction("Harmos::constrain::direction", s.num_rows), product("Harmos::constrain::product", s.num_rows),
-        term("Harmos::constrain::terms", s.num_own)
+        term("Harmos::constrain::terms", s.num_own), reach("Harmos::constrain::reach", s.num_rows)
   {
   }
 };
 
+KOKKOS_INLINE_FUNCTION ImpulseBounds boundsOf(ContactSystem const &s, Conjugate const &c, int row, int k)
+{
+  return s.bounds(row, k, c.reach(row));
+}
+
 KOKKOS_INLINE_FUNCTION bool isFree(ContactSystem const &s, Conjugate const &c, int row, int k)
 {
-  return s.tied(row) || c.p(row, k) > 0.0;
+  return boundsOf(s, c, row, k).inside(c.p(row, k));
 }
 
 /// Bound of the scaled operator's norm: one for the deformable part (row sums), and the trace of the free bodies' part.
@@ -71,12 +76,12 @@ GradientNorms gradientNorms(ContactSystem const &s, Conjugate const &c, Exchange
         double free = 0.0, chopped = 0.0;
         for (int k = 0; k < s.directions(row); ++k)
         {
-          double const r = c.r(row, k), d = s.diagonal(row, k);
-          double const reach = s.tied(row) ? no_bound : d * c.p(row, k) / c.fixed_step;
-          if (isFree(s, c, row, k))
-            free += r * Math::min(r, reach) / d;
+          double const r = c.r(row, k), d = s.diagonal(row, k), p = c.p(row, k);
+          ImpulseBounds const bounds = boundsOf(s, c, row, k);
+          if (bounds.inside(p))
+            free += r * bounds.reduced(p, r / d, c.fixed_step);
           else
-            chopped += r < 0.0 ? r * r / d : 0.0;
+            chopped += bounds.inward(p, r) * r / d;
         }
         c.term(i, 0) = free;
         c.term(i, 1) = chopped;
@@ -94,8 +99,9 @@ void setDirection(ContactSystem const &s, Conjugate const &c, bool of_free, doub
         for (int k = 0; k < s.directions(row); ++k)
         {
           double const r = c.r(row, k);
-          bool const free = isFree(s, c, row, k);
-          double const gradient = free == of_free ? (of_free ? r : Math::min(r, 0.0)) : 0.0;
+          ImpulseBounds const bounds = boundsOf(s, c, row, k);
+          bool const free = bounds.inside(c.p(row, k));
+          double const gradient = free == of_free ? (of_free ? r : bounds.inward(c.p(row, k), r)) : 0.0;
           c.direction(row, k) = gradient / s.diagonal(row, k) + (free ? beta * c.direction(row, k) : 0.0);
         }
       });
@@ -144,17 +150,22 @@ double conjugation(ContactSystem const &s, Conjugate const &c, Exchange const &e
 /// Longest step p - alpha direction that keeps every bound.
 double longestStep(ContactSystem const &s, Conjugate const &c, Exchange const &exchange)
 {
-  double longest = no_bound;
+  constexpr double endless = 1.0e290;
+  double longest = endless;
   Kokkos::parallel_reduce(
       "Harmos::constrain::longestStep", RangePolicy(0, s.num_own),
       KOKKOS_LAMBDA(int i, double &least) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
-          if (!s.tied(row) && c.direction(row, k) > 0.0)
-            least = Math::min(least, c.p(row, k) / c.direction(row, k));
+        {
+          double const d = c.direction(row, k);
+          ImpulseBounds const bounds = boundsOf(s, c, row, k);
+          if (d != 0.0)
+            least = Math::min(least, (c.p(row, k) - (d > 0.0 ? bounds.low : bounds.high)) / d);
+        }
       },
       Kokkos::Min<double>(longest));
-  return exchange.min(s.num_own > 0 ? longest : no_bound);
+  return exchange.min(s.num_own > 0 ? longest : endless);
 }
 
 /// p -= alpha direction, r -= alpha A direction.
@@ -165,88 +176,172 @@ void advance(ContactSystem const &s, Conjugate const &c, double alpha)
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
         {
-          double const p = c.p(row, k) - alpha * c.direction(row, k);
-          c.p(row, k) = s.tied(row) ? p : Math::max(p, 0.0);
+          c.p(row, k) = boundsOf(s, c, row, k).clip(c.p(row, k) - alpha * c.direction(row, k));
           c.r(row, k) -= alpha * c.product(row, k);
         }
       });
 }
 
-/// p = max(0, p - fixed_step r / D) on the free rows.
-void projectedStep(ContactSystem const &s, Conjugate const &c)
+/// p = bounds(p - step r / D), on the free rows alone or on all.
+void projectedStep(ContactSystem const &s, Conjugate const &c, double step, bool free_alone)
 {
   Kokkos::parallel_for(
       "Harmos::constrain::projectedStep", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
-          if (isFree(s, c, row, k))
-          {
-            double const p = c.p(row, k) - c.fixed_step * c.r(row, k) / s.diagonal(row, k);
-            c.p(row, k) = s.tied(row) ? p : Math::max(p, 0.0);
-          }
+          if (!free_alone || isFree(s, c, row, k))
+            c.p(row, k) = boundsOf(s, c, row, k).clip(c.p(row, k) - step * c.r(row, k) / s.diagonal(row, k));
       });
 }
 
-} // namespace
-
-MultiplierSolution solveMultipliers(ContactSystem const &s, ContactRows const &rows, double dt,
-                                    ConstraintOptions const &options, Exchange const &exchange)
+/// Bounds across n from the normal impulses, |p_t| <= mu p. Impulses outside of them return to them; those at a bound
+/// that their gradient presses on stay at it.
+void setReach(ContactSystem const &s, Conjugate const &c)
 {
-  ContactOperator const contact(s, rows, exchange);
-  double const scale = Math::max(contact.largestPredicted(dt), 1e-6 * options.speed_scale);
-  Conjugate c(s);
-  c.fixed_step /= operatorNorm(s, c, exchange);
-  MultiplierSolution solution{c.p, contact.change(), contact.bodyChange()};
-  double const bound = options.tolerance * scale;
-  int &iterations = solution.iterations;
-  auto const judge = [&](double violation)
-  {
-    solution.residual = violation > 0.0 ? violation / scale : 0.0;
-    solution.converged = violation <= bound;
-    return solution.converged;
-  };
+  Kokkos::parallel_for(
+      "Harmos::constrain::setReach", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+        int const row = s.own(i);
+        if (s.tied(row) || s.directions(row) == 1)
+          return;
+        double const before = c.reach(row), p = c.p(row, 1), r = c.r(row, 1);
+        c.reach(row) = s.friction(row) * c.p(row, 0);
+        bool const slides = (p >= before && r < 0.0) || (p <= -before && r > 0.0);
+        c.p(row, 1) = slides ? (r < 0.0 ? c.reach(row) : -c.reach(row)) : boundsOf(s, c, row, 1).clip(p);
+      });
+}
 
-  contact.residual(c.p, c.r);
-  if (judge(contact.violation(c.p, c.r)))
-    return solution;
-  setDirection(s, c, true, 0.0);
-  while (iterations < options.max_iterations)
+bool hasFriction(ContactSystem const &s, Exchange const &exchange)
+{
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::largestFriction", RangePolicy(0, s.num_own),
+      KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, s.friction(s.own(i))); }, Kokkos::Max<double>(largest));
+  return exchange.max(s.num_own > 0 ? largest : 0.0) > 0.0;
+}
+
+/// One solve: the operator, the arrays, and what has been reached.
+class Solve
+{
+public:
+  Solve(ContactSystem const &system, ContactRows const &rows, double dt, ConstraintOptions const &options,
+        Exchange const &exchange)
+      : s_(system), exchange_(exchange), contact_(system, rows, exchange), c_(system),
+        scale_(Math::max(contact_.largestPredicted(dt), 1e-6 * options.speed_scale)),
+        bound_(options.tolerance * scale_), max_iterations_(options.max_iterations)
   {
-    GradientNorms const norms = gradientNorms(s, c, exchange);
-    bool const proportional = norms.chopped <= norms.free;
-    if (!proportional)
-      setDirection(s, c, false, 0.0);
-    contact.product(c.direction, c.product);
-    ++iterations;
-    Slope const slope = slopeAlong(s, c, exchange);
-    double const alpha = slope.curvature > 0.0 ? slope.descent / slope.curvature : 0.0;
-    double const longest = proportional ? longestStep(s, c, exchange) : no_bound;
-    if (slope.curvature > 0.0 && alpha <= longest)
+    c_.two_sided = hasFriction(s_, exchange_);
+    solution = {c_.p, contact_.change(), contact_.bodyChange()};
+  }
+
+  /// p <- bounds(p - r / D)
+  void byRowSums()
+  {
+    while (!residualFits() && solution.iterations < max_iterations_)
     {
-      advance(s, c, alpha);
-      setDirection(s, c, true, proportional ? -conjugation(s, c, exchange) / slope.curvature : 0.0);
-    }
-    else
-    {
-      if (slope.curvature > 0.0)
-        advance(s, c, longest);
-      projectedStep(s, c);
-      contact.residual(c.p, c.r);
-      ++iterations;
-      setDirection(s, c, true, 0.0);
-    }
-    if (contact.violation(c.p, c.r) <= bound)
-    {
-      // The recurrence says so; the residual itself decides. Where they differ the iteration starts anew from it.
-      contact.residual(c.p, c.r);
-      if (judge(contact.violation(c.p, c.r)))
-        return solution;
-      setDirection(s, c, true, 0.0);
+      projectedStep(s_, c_, 1.0, false);
+      setReach(s_, c_);
+      ++solution.iterations;
     }
   }
-  contact.residual(c.p, c.r);
-  judge(contact.violation(c.p, c.r));
-  return solution;
+
+  /// Conjugate gradients; with friction until its bounds fit as well.
+  void byConjugateGradients()
+  {
+    constexpr double part = 0.1; // of the residual that one pass with held bounds has to leave
+    if (residualFits())
+      return;
+    c_.fixed_step /= operatorNorm(s_, c_, exchange_);
+    descend(c_.two_sided ? Math::max(bound_, part * violation_) : bound_);
+    while (c_.two_sided)
+    {
+      setReach(s_, c_);
+      ++solution.iterations;
+      if (residualFits() || solution.iterations >= max_iterations_)
+        return;
+      descend(Math::max(bound_, part * violation_));
+    }
+  }
+
+  MultiplierSolution solution;
+
+private:
+  double violation() const { return contact_.violation(c_.p, c_.r, c_.reach); }
+
+  /// Compute the residual afresh and judge it.
+  bool residualFits()
+  {
+    contact_.residual(c_.p, c_.r);
+    violation_ = violation();
+    solution.residual = violation_ > 0.0 ? violation_ / scale_ : 0.0;
+    solution.converged = violation_ <= bound_;
+    return solution.converged;
+  }
+
+  /// One step along the conjugate (or, to let go bound rows, the gradient's) direction.
+  void step()
+  {
+    GradientNorms const norms = gradientNorms(s_, c_, exchange_);
+    bool const proportional = norms.chopped <= norms.free;
+    if (!proportional)
+      setDirection(s_, c_, false, 0.0);
+    contact_.product(c_.direction, c_.product);
+    ++solution.iterations;
+    Slope const slope = slopeAlong(s_, c_, exchange_);
+    double const alpha = slope.curvature > 0.0 ? slope.descent / slope.curvature : 0.0;
+    bool const meets_bounds = proportional || c_.two_sided;
+    double const longest = meets_bounds ? longestStep(s_, c_, exchange_) : alpha;
+    if (slope.curvature > 0.0 && alpha <= longest)
+    {
+      advance(s_, c_, alpha);
+      setDirection(s_, c_, true, proportional ? -conjugation(s_, c_, exchange_) / slope.curvature : 0.0);
+      return;
+    }
+    if (slope.curvature > 0.0)
+      advance(s_, c_, longest);
+    projectedStep(s_, c_, c_.fixed_step, true);
+    contact_.residual(c_.p, c_.r);
+    ++solution.iterations;
+    setDirection(s_, c_, true, 0.0);
+  }
+
+  /// With the bounds as they are, until the violation is at most `enough`.
+  void descend(double enough)
+  {
+    setDirection(s_, c_, true, 0.0);
+    while (solution.iterations < max_iterations_)
+    {
+      step();
+      if (violation() > enough)
+        continue;
+      // The recurrence says so; the residual itself decides. Where they differ the iteration starts anew from it.
+      residualFits();
+      if (violation_ <= enough)
+        return;
+      setDirection(s_, c_, true, 0.0);
+    }
+    residualFits();
+  }
+
+  ContactSystem const &s_;
+  Exchange const &exchange_;
+  ContactOperator const contact_;
+  Conjugate c_;
+  double const scale_, bound_;
+  int const max_iterations_;
+  double violation_ = 0.0;
+};
+
+} // namespace
+
+MultiplierSolution solveMultipliers(ContactSystem const &system, ContactRows const &rows, double dt,
+                                    ConstraintOptions const &options, Exchange const &exchange)
+{
+  Solve solve(system, rows, dt, options, exchange);
+  if (options.solver == MultiplierMethod::RowSums)
+    solve.byRowSums();
+  else
+    solve.byConjugateGradients();
+  return solve.solution;
 }
 
 } // namespace Harmos

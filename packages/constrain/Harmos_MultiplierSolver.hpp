@@ -17,21 +17,28 @@ struct MultiplierSolution
   bool converged = true;
 };
 
-/// \brief Solve r = b + G M^-1 P G^T p >= 0, p >= 0, p r = 0 (tied rows: r = 0, p of any sign).
+/// \brief Solve r = b + G M^-1 P G^T p >= 0, p >= 0, p r = 0 (tied rows: r = 0, p of any sign; across n with friction:
+/// |p_t| <= mu p, r_t = 0 inside of the bounds and against p_t at them).
 ///
-/// Modified proportioning with reduced gradient projections (MPRGP), for p.A p/2 + b.p over p >= 0 in the scaled
-/// unknowns sqrt(D) p, D the row sums of the deformable part of A = G M^-1 P G^T. The scaled operator's norm is at most
-/// one, plus the trace of the free rigid bodies' part, so that projected gradient steps of 1.9 over that bound are
-/// safe. Conjugate gradients in the free set; a step that meets a bound ends in a projected gradient step; bound rows
-/// are let go when their gradient outweighs the free one. The few large eigenvalues that a rigid body adds cost
-/// conjugate gradients a few iterations, where gradient methods crawl. Convergence is judged on the residual computed
-/// afresh.
+/// Friction by fixed point: the bounds across n are held while the convex problem of all impulses is solved, then set
+/// anew, until normal and tangential impulses fit together; the residual is judged with the new bounds.
 ///
-/// Residual: the largest |r| over rows with p > 0 or tied, and max(0, -r) over the others, relative to
+/// MultiplierMethod::RowSums is the plain iteration p <- bounds(p - r / D), for comparison.
+///
+/// MultiplierMethod::ConjugateGradients: modified proportioning with reduced gradient projections (MPRGP), for p.A p/2
+/// + b.p over p >= 0 in the scaled unknowns sqrt(D) p, D the row sums of the deformable part of A = G M^-1 P G^T. The
+/// scaled operator's norm is at most one, plus the trace of the free rigid bodies' part, so that projected gradient
+/// steps of 1.9 over that bound are safe. Conjugate gradients in the free set; a step that meets a bound ends in a
+/// projected gradient step; bound rows are let go when their gradient outweighs the free one. The few large eigenvalues
+/// that a rigid body adds cost conjugate gradients a few iterations, where gradient methods crawl. Convergence is
+/// judged on the residual computed afresh.
+///
+/// Residual: the largest |r| of impulses between their bounds, and of what leads away from a bound, relative to
 /// max(largest |G v*|, 1e-6 speed_scale). Every comparison is between numbers that do not depend on ranks.
 ///
 /// \param rows Their `travelling` carries the multipliers between ranks.
-/// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23-43.
+/// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23-43; Dostal, Haslinger & Kucera, J. Comput. Appl. Math. 140
+/// (2002) 245-256 (friction).
 MultiplierSolution solveMultipliers(ContactSystem const &system, ContactRows const &rows, double dt,
                                     ConstraintOptions const &options, Exchange const &exchange);
 

@@ -129,14 +129,6 @@ struct FitPoints
   }
 };
 
-KOKKOS_FORCEINLINE_FUNCTION double laneSum(Pack const &p)
-{
-  double sum = laneOf(p, 0);
-  for (int lane = 1; lane < pack_width; ++lane)
-    sum += laneOf(p, lane);
-  return sum;
-}
-
 /// Moments of one side's samples: what the normal equations are made of.
 struct FitMoments
 {

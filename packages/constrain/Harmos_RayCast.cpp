@@ -29,11 +29,12 @@ struct Ray
   template <class Segment>
   KOKKOS_INLINE_FUNCTION void offer(Mesh const &mesh, Segment const &target, int number)
   {
+    if (target.material == from.material)
+      return;
     Vector2 const apart_by = target.midpoint - from.point;
     double const farthest = nearest + 0.5 * target.length + 1e-6 * target.cell_size;
     double distance;
-    if (dot(apart_by, apart_by) > farthest * farthest || target.material == from.material ||
-        !crossSegment(from.point, from.normal, target, distance))
+    if (dot(apart_by, apart_by) > farthest * farthest || !crossSegment(from.point, from.normal, target, distance))
       return;
     double const apart = Math::fabs(distance);
     if (apart > nearest || (apart == nearest && hit.segment >= 0 && number > hit.segment))
@@ -65,14 +66,18 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *>
   int const cell = segment(from).cell;
   if (segment(from).material < 0)
     return ray.hit;
-  // The own cell's segments first: where the interface is shared the ray ends at once, and its box is small.
+  // The own cell's segments first: where the interface is shared the ray ends at once.
+  constexpr double shared = 1e-10; // apart, of the cell
   for (int to = from - 1; to >= 0 && segment(to).cell == cell; --to)
     ray.offer(mesh, segment(to), to);
   for (int to = from + 1; to < count && segment(to).cell == cell; ++to)
     ray.offer(mesh, segment(to), to);
+  if (ray.hit.segment >= 0 && ray.nearest <= shared * segment(from).cell_size)
+    return ray.hit;
   Vector2 low, high;
   ray.box(0.52 * bins.size, low, high); // half the longest segment and a little
-  bins.forEach(low, high, [&](int, BinnedSegment const &target) { ray.offer(mesh, target, target.segment); });
+  if (bins.holdOthers(low, high, segment(from).material))
+    bins.forEach(low, high, [&](int, BinnedSegment const &target) { ray.offer(mesh, target, target.segment); });
   return ray.hit;
 }
 

@@ -89,6 +89,7 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest)
   bins.offset = View<int *>("Harmos::constrain::bin_offset", buckets + 1);
   bins.item =
       View<BinnedSegment *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bin_item"), count);
+  bins.materials = View<unsigned long long *>("Harmos::constrain::bin_materials", buckets);
   View<int *> const bucket(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bucket"), count);
   View<int *> const order(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bin_order"), count);
   View<int *> const filled("Harmos::constrain::bin_filled", buckets);
@@ -114,9 +115,42 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest)
         int const begin = bins.offset(b), end = bins.offset(b + 1);
         sortRange(order, begin, end);
         for (int i = begin; i < end; ++i)
+        {
           bins.item(i) = binned(bins, segment(order(i)), order(i));
+          bins.materials(b) |= SegmentBins::materialBit(bins.item(i).material);
+        }
       });
   return bins;
+}
+
+SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen)
+{
+  int const count = static_cast<int>(bins.item.extent(0)), buckets = static_cast<int>(bins.offset.extent(0)) - 1;
+  View<int *> const place(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::chosen_place"),
+                          count + 1);
+  int total = 0;
+  Kokkos::parallel_scan(
+      "Harmos::constrain::placeChosen", RangePolicy(0, count + 1),
+      KOKKOS_LAMBDA(int i, int &sum, bool final) {
+        if (final)
+          place(i) = sum;
+        sum += i < count ? chosen(i) : 0;
+      },
+      total);
+  SegmentBins result = bins;
+  result.offset =
+      View<int *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::chosen_offset"), buckets + 1);
+  result.item =
+      View<BinnedSegment *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::chosen_item"), total);
+  Kokkos::parallel_for(
+      "Harmos::constrain::chosenOffsets", RangePolicy(0, buckets + 1),
+      KOKKOS_LAMBDA(int b) { result.offset(b) = place(bins.offset(b)); });
+  Kokkos::parallel_for(
+      "Harmos::constrain::chosenItems", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
+        if (chosen(i) == 1)
+          result.item(place(i)) = bins.item(i);
+      });
+  return result;
 }
 
 } // namespace Harmos

@@ -26,9 +26,10 @@ struct SegmentBins
   double size = 1.0; // of a bin: the largest cell size or segment length of all ranks
   int first_column = 0, last_column = -1, first_row = 0, last_row = -1; // of the segments' bins
   bool hashed = false;
-  int mask = 0;               // hashed: buckets - 1; buckets is a power of two
-  View<int *> offset;         // bins of the grid by row, or buckets; and one more
-  View<BinnedSegment *> item; // by bin, then by segment
+  int mask = 0;                         // hashed: buckets - 1; buckets is a power of two
+  View<int *> offset;                   // bins of the grid by row, or buckets; and one more
+  View<BinnedSegment *> item;           // by bin, then by segment
+  View<unsigned long long *> materials; // materialBits of each bin's segments
 
   KOKKOS_INLINE_FUNCTION int index(double x) const { return static_cast<int>(Math::floor(x / size)); }
 
@@ -40,22 +41,54 @@ struct SegmentBins
     return static_cast<int>((h ^ (h >> 15)) & static_cast<unsigned>(mask));
   }
 
+  /// A bit for each material below 63, one for all others and the walls.
+  static KOKKOS_INLINE_FUNCTION unsigned long long materialBit(int material)
+  {
+    return 1ull << (material >= 0 && material < 63 ? material : 63);
+  }
+
+  /// False where the bins that meet the box low..high hold nothing but segments of one material, below 63: most of
+  /// those that face void.
+  KOKKOS_INLINE_FUNCTION bool holdOthers(Vector2 const &low, Vector2 const &high, int material) const
+  {
+    if (material >= 63)
+      return true;
+    unsigned long long bits = 0;
+    Range const r = range(low, high);
+    for (int row = r.south; row <= r.north; ++row)
+      for (int column = r.west; column <= r.east; ++column)
+        bits |= materials(bucket(column, row));
+    return (bits & ~materialBit(material)) != 0;
+  }
+
   /// visit(place, item(place)) for every segment in the bins that meet the box low..high.
   template <class Visitor>
   KOKKOS_INLINE_FUNCTION void forEach(Vector2 const &low, Vector2 const &high, Visitor const &visit) const
   {
-    int const west = Math::max(first_column, index(low[0])), east = Math::min(last_column, index(high[0]));
-    int const north = Math::min(last_row, index(high[1]));
-    if (east < west)
+    Range const r = range(low, high);
+    if (r.east < r.west)
       return;
-    for (int row = Math::max(first_row, index(low[1])); row <= north; ++row)
+    for (int row = r.south; row <= r.north; ++row)
     {
       // The bins of a row of the grid lie side by side.
-      for (int column = west; column <= east; column = hashed ? column + 1 : east + 1)
-        for (int i = offset(bucket(column, row)); i < offset(bucket(hashed ? column : east, row) + 1); ++i)
+      for (int column = r.west; column <= r.east; column = hashed ? column + 1 : r.east + 1)
+        for (int i = offset(bucket(column, row)); i < offset(bucket(hashed ? column : r.east, row) + 1); ++i)
           if (!hashed || (item(i).column == column && item(i).row == row))
             visit(i, item(i));
     }
+  }
+
+private:
+  struct Range
+  {
+    int west, east, south, north;
+  };
+
+  /// Columns and rows of the bins that meet a box; none where east < west or north < south.
+  KOKKOS_INLINE_FUNCTION Range range(Vector2 const &low, Vector2 const &high) const
+  {
+    return {Math::max(first_column, index(low[0])), Math::min(last_column, index(high[0])),
+            Math::max(first_row, index(low[1])), Math::min(last_row, index(high[1]))};
   }
 };
 
@@ -65,6 +98,9 @@ double largestSegment(Mesh const &mesh, InterfaceSegments const &segments);
 /// \param largest Of all ranks' largestSegment. Own cells decide it: the halo's rim may hold segments that are not
 /// there.
 SegmentBins binSegments(InterfaceSegments const &segments, double largest);
+
+/// The bins with those of their items alone that are chosen (1, else 0); walks meet them in the same order.
+SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen);
 
 } // namespace Harmos
 

@@ -25,6 +25,7 @@ enum RowItem : int
   ItemMaterialA,
   ItemMaterialB,
   ItemTied,
+  ItemFriction,
   ItemWeightA,
   ItemWeightB = ItemWeightA + 4,
   ItemPoint = ItemWeightB + 4,
@@ -55,6 +56,7 @@ KOKKOS_INLINE_FUNCTION void packRow(Mesh const &mesh, ContactRow const &row, Pac
   item(i, ItemMaterialA) = row.material_a;
   item(i, ItemMaterialB) = row.material_b;
   item(i, ItemTied) = row.tied;
+  item(i, ItemFriction) = row.friction;
   for (int k = 0; k < 4; ++k)
   {
     item(i, ItemWeightA + k) = row.weight_a[k];
@@ -89,6 +91,8 @@ KOKKOS_INLINE_FUNCTION bool unpackRow(Mesh const &mesh, CellMaterialPairs const 
   row.material_a = static_cast<int>(item(i, ItemMaterialA));
   row.material_b = static_cast<int>(item(i, ItemMaterialB));
   row.tied = static_cast<int>(item(i, ItemTied));
+  row.friction = item(i, ItemFriction);
+  row.bond = -1; // its owner sums the load
   row.body_a = bodies.of_material(row.material_a);
   row.body_b = row.material_b < 0 ? -2 : bodies.of_material(row.material_b);
   for (int k = 0; k < 4; ++k)

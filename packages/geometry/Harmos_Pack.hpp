@@ -115,6 +115,10 @@ KOKKOS_FORCEINLINE_FUNCTION Pack::Mask both(Pack::Mask const &a, Pack::Mask cons
 {
   return a & b;
 }
+KOKKOS_FORCEINLINE_FUNCTION Pack::Mask either(Pack::Mask const &a, Pack::Mask const &b)
+{
+  return a | b;
+}
 KOKKOS_FORCEINLINE_FUNCTION Pack::Mask no(Pack::Mask const &a)
 {
   return ~a;
@@ -276,6 +280,10 @@ KOKKOS_FORCEINLINE_FUNCTION bool both(bool a, bool b)
 {
   return a && b;
 }
+KOKKOS_FORCEINLINE_FUNCTION bool either(bool a, bool b)
+{
+  return a || b;
+}
 KOKKOS_FORCEINLINE_FUNCTION bool no(bool a)
 {
   return !a;
@@ -287,6 +295,15 @@ KOKKOS_FORCEINLINE_FUNCTION bool laneOf(bool mask, int)
 KOKKOS_FORCEINLINE_FUNCTION double laneOf(double pack, int)
 {
   return pack;
+}
+
+/// Sum of the lanes, in their order.
+KOKKOS_FORCEINLINE_FUNCTION double laneSum(Pack const &p)
+{
+  double sum = laneOf(p, 0);
+  for (int lane = 1; lane < pack_width; ++lane)
+    sum += laneOf(p, lane);
+  return sum;
 }
 
 /// Field f of eight-field rows into packs: field[f] lane l = row(l)[f].

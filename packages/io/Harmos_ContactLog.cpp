@@ -7,7 +7,7 @@ namespace Harmos
 ContactLog::ContactLog(std::string const &path, bool writes, CsvStart start)
 {
   if (writes)
-    file_ = std::make_unique<CsvFile>(path, "cycle,time,a,b,force_x,force_y,normal_impulse,area", start);
+    file_ = std::make_unique<CsvFile>(path, "cycle,time,a,b,force_x,force_y,normal_impulse,area,deviation", start);
 }
 
 void ContactLog::write(long long cycle, double time, std::vector<ContactEntry> const &entries)
@@ -20,7 +20,7 @@ void ContactLog::write(long long cycle, double time, std::vector<ContactEntry> c
     lines += std::to_string(cycle);
     appendValue(lines, time);
     lines += ',' + entry.a + ',' + entry.b;
-    for (double value : {entry.force_x, entry.force_y, entry.normal_impulse, entry.area})
+    for (double value : {entry.force_x, entry.force_y, entry.normal_impulse, entry.area, entry.deviation})
       appendValue(lines, value);
     lines += '\n';
   }

@@ -19,6 +19,7 @@ struct ContactEntry
   double force_y = 0.0;
   double normal_impulse = 0.0; // sum of the normal multipliers of the cycle, >= 0 [N s/m]
   double area = 0.0;           // length of the loaded segments [m]
+  double deviation = 0.0;      // of the segments' normal tractions from their mean, root mean square by length [Pa]
 };
 
 /// contact.csv, long form: a line for each pair of materials that touched: cycle,time,a,b,force_x,...

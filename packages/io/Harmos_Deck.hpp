@@ -4,13 +4,14 @@
 
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_CellMaterialPairs.hpp>
-#include <Harmos_Constrain.hpp>
+#include <Harmos_ConstraintOptions.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Material.hpp>
 #include <Harmos_MeshSmoother.hpp>
 #include <Harmos_PrescribedField.hpp>
 #include <Harmos_Reconstruct.hpp>
 #include <Harmos_Remap.hpp>
+#include <Harmos_RigidBody.hpp>
 
 #include <string>
 #include <vector>
@@ -152,7 +153,7 @@ struct Deck
   std::vector<BodySpec> bodies;  // in the order of the deck
   std::vector<FieldSpec> fields; // the material numbers
   int num_rigid_bodies = 0;
-  std::vector<Interaction> interaction; // (fields, fields), row-major, symmetric
+  std::vector<PairInteraction> interaction; // (fields, fields), row-major, symmetric
 
   LagrangeOptions lagrange;             // with gravity and Courant number
   ReconstructionOptions reconstruction; // without `order`, which is

@@ -12,6 +12,8 @@
 namespace Harmos
 {
 
+constexpr char const *side_name[num_boundary_sides] = {"left", "right", "bottom", "top"};
+
 /// Throws DeckError "file: path: message".
 class DeckChecker
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DeckBodies.hpp>
+#include <Harmos_DeckContact.hpp>
 #include <Harmos_DeckReader.hpp>
 #include <Harmos_Temperature.hpp>
 
@@ -16,8 +17,6 @@ namespace
 {
 
 using Teuchos::ParameterList;
-
-char const *const side_name[num_boundary_sides] = {"left", "right", "bottom", "top"};
 
 AxisSpec axisOf(DeckChecker const &check, ParameterList const &list, std::string const &path)
 {
@@ -157,7 +156,10 @@ void convertBoundaries(DeckChecker const &check, ParameterList const &boundaries
     std::string const type = list.get<std::string>("type");
     Boundary &boundary = deck.boundary[side];
     if (type == "contact wall")
+    {
       boundary.kind = BoundaryKind::ContactWall;
+      boundary.friction = list.get<double>("friction");
+    }
     else if (type == "fixed")
       boundary.kind = BoundaryKind::Fixed;
     else if (type == "outflow")
@@ -174,31 +176,6 @@ void convertBoundaries(DeckChecker const &check, ParameterList const &boundaries
       boundary.kind = BoundaryKind::Prescribed;
       boundary.velocity = list.get<double>("normal_velocity") * outward[side];
     }
-  }
-}
-
-void convertInteractions(DeckChecker const &check, ParameterList const &list, Deck &deck)
-{
-  int const n = static_cast<int>(deck.fields.size());
-  auto const kindOf = [](std::string const &word) { return word == "tied" ? Interaction::Tied : Interaction::Sliding; };
-  deck.interaction.assign(static_cast<std::size_t>(n) * n, kindOf(list.get<std::string>("default")));
-  for (auto i = list.begin(); i != list.end(); ++i)
-  {
-    if (!list.entry(i).isList())
-      continue;
-    ParameterList const &item = list.sublist(list.name(i));
-    std::string const path = "interactions/" + list.name(i);
-    int field[2];
-    for (int k = 0; k < 2; ++k)
-    {
-      char const *key = k == 0 ? "between" : "and";
-      std::string const name = item.get<std::string>(key);
-      field[k] = deck.bodies[requireIndex(check, deck.bodies, name, keyPath(path, key), "body")].field;
-    }
-    check.require(field[0] != field[1], path, "both bodies share one velocity field");
-    Interaction const kind = kindOf(item.get<std::string>("type"));
-    deck.interaction[field[0] * n + field[1]] = kind;
-    deck.interaction[field[1] * n + field[0]] = kind;
   }
 }
 
@@ -240,11 +217,7 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.reconstruction.sliver = method == "moment of fluid" ? reconstruction.get<double>("sliver") : 1.0;
   convertRemovalOrder(check, reconstruction.get<Teuchos::Array<std::string>>("removal_order"), deck);
 
-  ParameterList const &constraint = list.sublist("constraint");
-  deck.constraint.tolerance = constraint.get<double>("tolerance");
-  deck.constraint.max_iterations = constraint.get<int>("max_iterations");
-  deck.constraint.shortest_segment = constraint.get<double>("shortest_segment");
-  deck.constraint.exposed_face = constraint.get<double>("exposed_face");
+  convertConstraint(check, list.sublist("constraint"), deck);
 
   ParameterList const &remap = list.sublist("remap");
   deck.remap.order = remap.get<int>("order");
@@ -278,8 +251,8 @@ void checkPrescribed(DeckChecker const &check, ParameterList const &complete, De
     check.require(complete.sublist("boundaries").sublist(side_name[side]).get<std::string>("type") == "slip wall",
                   std::string("boundaries/") + side_name[side] + "/type",
                   "material that moves with a prescribed_velocity stays inside of the mesh; expected: slip wall");
-  for (Interaction const interaction : deck.interaction)
-    check.require(interaction == Interaction::Sliding, "interactions", "tied" + why);
+  for (PairInteraction const &interaction : deck.interaction)
+    check.require(interaction.kind == Interaction::Sliding, "interactions", "a bond or friction" + why);
   for (BodySpec const &body : deck.bodies)
   {
     std::string const path = "bodies/" + body.name;

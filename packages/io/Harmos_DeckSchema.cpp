@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DeckSchema.hpp>
 
-#include <Harmos_Constrain.hpp>
+#include <Harmos_ConstraintOptions.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Reconstruct.hpp>
 #include <Harmos_Remap.hpp>
@@ -139,9 +139,11 @@ void addBoundaries(ParameterList &boundaries)
     ParameterList &list = boundaries.sublist(side);
     add(list, "type", std::string("slip wall"),
         choice({"slip wall", "contact wall", "fixed", "inflow", "outflow", "prescribed"}),
-        "slip wall: no normal velocity (symmetry); contact wall: one-sided and frictionless, a body can leave it; "
+        "slip wall: no normal velocity (symmetry); contact wall: one-sided, a body can leave it; "
         "fixed: no velocity; inflow: given state; outflow: free of traction; prescribed: given normal velocity "
         "(lagrangian only)");
+    add(list.sublist("type = contact wall"), "friction", 0.0, number(not_negative),
+        "Coulomb's coefficient of the wall");
     ParameterList &inflow = list.sublist("type = inflow");
     add(inflow, "body", std::string(), required(rulesOf(KeyType::Name)), "body whose material flows in");
     add(inflow, "velocity", pair(0.0, 0.0), required(numbers(2, 2, "m/s")), "velocity, into the mesh");
@@ -327,13 +329,25 @@ void addBodies(ParameterList &bodies)
 
 void addInteractions(ParameterList &list)
 {
-  KeyRules const kind = choice({"sliding", "tied"});
+  KeyRules const kind = choice({"sliding", "bonded", "friction"});
+  auto const addLaws = [](ParameterList &where, std::string const &key)
+  {
+    ParameterList &friction = where.sublist(key + " = friction");
+    add(friction, "coefficient", 0.0, required(number(positive)), "Coulomb's: tangential over normal force at most");
+    ParameterList &bonded = where.sublist(key + " = bonded");
+    for (char const *way : {"tensile", "shear"})
+      add(bonded, std::string(way) + "_strength", 0.0, optional(number(positive, "Pa"), "without limit"),
+          std::string("largest ") + way + " traction; what has broken slides from then on");
+  };
   add(list, "default", std::string("sliding"), kind,
-      "between any two fields. sliding: frictionless, free to separate; tied: no relative velocity");
+      "between any two fields. sliding: frictionless, free to separate; bonded: no relative velocity; friction: "
+      "Coulomb, free to separate");
+  addLaws(list, "default");
   ParameterList &exception = list.sublist("NAME");
   add(exception, "between", std::string(), required(rulesOf(KeyType::Name)), "a body");
   add(exception, "and", std::string(), required(rulesOf(KeyType::Name)), "another body");
   add(exception, "type", std::string(), required(kind), "how these two interact");
+  addLaws(exception, "type");
 }
 
 void addNumerics(ParameterList &list)
@@ -365,6 +379,18 @@ void addNumerics(ParameterList &list)
 
   ConstraintOptions const constraint;
   ParameterList &c = list.sublist("constraint");
+  add(c, "method", std::string("multipliers"), choice({"multipliers", "penalty", "nitsche", "nodal", "merged"}),
+      "what acts at the interfaces. multipliers: forward-increment Lagrange multipliers; penalty, nitsche: tractions "
+      "from the closing velocity, without a solve; nodal: contact at nodes that several materials move; merged: all "
+      "materials at a node stick");
+  for (char const *method : {"penalty", "nitsche"})
+    add(c.sublist(std::string("method = ") + method), "penalty", constraint.penalty, number(positive),
+        "traction over impedance times closing velocity");
+  add(c.sublist("method = multipliers"), "placement", std::string("midpoint"),
+      choice({"midpoint", "gauss points", "segment ends"}), "of the multipliers on a segment: one, or two");
+  add(c, "solver", std::string("conjugate gradients"), choice({"conjugate gradients", "row sums"}),
+      "of the multipliers. conjugate gradients: with projections; row sums: the plain iteration with the row sums of "
+      "the operator, for comparison");
   add(c, "tolerance", constraint.tolerance, number({0.0, 1e-2, true, false}), "relative residual of the multipliers");
   add(c, "max_iterations", constraint.max_iterations, integer({1.0, infinity, false, false}), "limit for one cycle");
   add(c, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),

@@ -135,13 +135,13 @@ private:
       auto const same = [&](auto const &item) { return item.first == name; };
       if (std::any_of(active.entries.begin(), active.entries.end(), same))
         continue;
-      if (active.any && input.entry(i).isList())
-        continue;
       std::vector<std::string> conditions;
       for (auto const &[other, condition] : active.elsewhere)
         if (other == name)
           conditions.push_back(condition);
       if (active.undecided && !conditions.empty())
+        continue;
+      if (active.any && conditions.empty() && input.entry(i).isList())
         continue;
       std::vector<std::string> allowed;
       for (auto const &item : active.entries)

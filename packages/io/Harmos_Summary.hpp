@@ -29,6 +29,7 @@ struct Summary
   double energy_error = 0.0;           // of the total
   double angular_momentum_drift = 0.0; // largest |L - L0| over the largest sum m |x| |v|: walls turn too
   long long unconverged_cycles = 0;
+  long long broken_bonds = 0;
   long long merged_fragments = 0;
   long long unfinished_interfaces = 0; // mixed cells, over all cycles, whose line's angle met its bound of iterations
   std::vector<std::pair<std::string, double>> shape_errors; // prescribed field: errors against the exact shapes [m^2]

@@ -2,7 +2,7 @@
 #ifndef HARMOS_FRACTION_GRADIENT_HPP
 #define HARMOS_FRACTION_GRADIENT_HPP
 
-#include <Harmos_CellComponents.hpp>
+#include <Harmos_CellNeighbours.hpp>
 
 namespace Harmos
 {
@@ -28,24 +28,32 @@ struct FractionDifference
 /// Exact for linear functions on any mesh. Where the neighbours lie on one line (a strip of cells) the gradient along
 /// that line; zero without neighbours.
 KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
-                                                    FractionDifference const &f)
+                                                    CellNeighbours const &neighbours, FractionDifference const &f)
 {
-  Rows const &neighbours = field.mesh.cell_neighbour;
-  int const cell = components.cell;
-  Vector2 const centre = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, cell));
-  double const f0 = f(field, components, cell);
-  double sxx = 0.0, sxy = 0.0, syy = 0.0;
-  Vector2 b{0.0, 0.0};
-  for (int n = neighbours.offset(cell); n < neighbours.offset(cell + 1); ++n)
+  Vector2 const centre = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, components.cell));
+  Pack const f0 = f(field, components, components.cell), third = 1.0 / 3.0;
+  Pack xx = 0.0, xy = 0.0, yy = 0.0, x = 0.0, y = 0.0;
+  NeighbourPack spare;
+  for (int p = 0; p < neighbours.packs(); ++p)
   {
-    int const j = neighbours.item(n);
-    Vector2 const d = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, j)) - centre;
-    double const w = 1.0 / dot(d, d);
-    sxx += w * d[0] * d[0];
-    sxy += w * d[0] * d[1];
-    syy += w * d[1] * d[1];
-    b += (w * (f(field, components, j) - f0)) * d;
+    NeighbourPack const &n = neighbours.pack(p, spare);
+    // Centroid of the two triangles on either side of the diagonal.
+    Pack const ax = n.x[1] - n.x[0], ay = n.y[1] - n.y[0], bx = n.x[2] - n.x[0], by = n.y[2] - n.y[0];
+    Pack const cx = n.x[3] - n.x[0], cy = n.y[3] - n.y[0];
+    Pack const lower = ax * by - ay * bx, upper = bx * cy - by * cx;
+    Pack const scale = third / (lower + upper);
+    Pack const dx = n.x[0] + scale * (lower * (ax + bx) + upper * (bx + cx)) - Pack(centre[0]);
+    Pack const dy = n.y[0] + scale * (lower * (ay + by) + upper * (by + cy)) - Pack(centre[1]);
+    Pack const w = n.present / (dx * dx + dy * dy);
+    Pack const wx = w * dx, wy = w * dy, difference = neighbours.values(f, p) - f0;
+    xx += wx * dx;
+    xy += wx * dy;
+    yy += wy * dy;
+    x += wx * difference;
+    y += wy * difference;
   }
+  double const sxx = laneSum(xx), sxy = laneSum(xy), syy = laneSum(yy);
+  Vector2 const b{laneSum(x), laneSum(y)};
   double const trace = sxx + syy, det = sxx * syy - sxy * sxy;
   if (trace == 0.0)
     return {0.0, 0.0};
@@ -120,7 +128,8 @@ KOKKOS_INLINE_FUNCTION Vector2 youngsGradient(ReconstructionField const &field, 
       ++closed;
     }
   }
-  return closed > 0 ? (1.0 / closed) * sum : leastSquaresGradient(field, components, f);
+  return closed > 0 ? (1.0 / closed) * sum
+                    : leastSquaresGradient(field, components, CellNeighbours(field, components), f);
 }
 
 } // namespace Harmos

@@ -18,130 +18,75 @@ struct LeastSquaresLine
 namespace Detail
 {
 
-/// Area of a convex polygon on the inside of a line, and the chord that the line makes in it.
-struct HalfPlanePart
-{
-  double area, chord_length;
-  Vector2 chord_middle;
-};
-
-KOKKOS_INLINE_FUNCTION HalfPlanePart halfPlanePart(Quadrilateral const &quad, Plane2 const &line)
-{
-  HalfPlanePart part{0.0, 0.0, {0.0, 0.0}};
-  double distance[4];
-  for (int k = 0; k < 4; ++k)
-    distance[k] = line.distance(quad[k]);
-  double const nearest = Math::min(Math::min(distance[0], distance[1]), Math::min(distance[2], distance[3]));
-  double const farthest = Math::max(Math::max(distance[0], distance[1]), Math::max(distance[2], distance[3]));
-  if (nearest > 0.0)
-    return part;
-  if (farthest <= 0.0)
-  {
-    part.area = area(quad);
-    return part;
-  }
-  Vector2 chord[2] = {{0.0, 0.0}, {0.0, 0.0}};
-  int crossings = 0;
-  Vector2 a = quad[3], previous{0.0, 0.0}; // relative to origin, a point of the result
-  double da = distance[3];
-  Vector2 const origin = quad[0];
-  Vector2 first{0.0, 0.0};
-  int kept = 0;
-  double twice_area = 0.0;
-  auto const keep = [&](Vector2 const &x)
-  {
-    Vector2 const r = x - origin;
-    if (kept++ == 0)
-      first = r;
-    else
-      twice_area += cross(previous - first, r - first);
-    previous = r;
-  };
-  for (int k = 0; k < 4; ++k)
-  {
-    Vector2 const b = quad[k];
-    double const db = distance[k];
-    if ((da <= 0.0) != (db <= 0.0))
-    {
-      Vector2 const x = a + (da / (da - db)) * (b - a);
-      if (crossings < 2)
-        chord[crossings++] = x;
-      keep(x);
-    }
-    if (db <= 0.0)
-      keep(b);
-    a = b;
-    da = db;
-  }
-  part.area = 0.5 * twice_area;
-  if (crossings == 2)
-  {
-    part.chord_length = norm(chord[1] - chord[0]);
-    part.chord_middle = 0.5 * (chord[0] + chord[1]);
-  }
-  return part;
-}
-
 /// Misfit of a line of given angle with exact volume in the own polygon, and its Gauss-Newton gradient and Hessian.
 struct LineMisfit
 {
   double value, gradient, hessian;
 };
 
-/// A neighbour as the fit sees it.
-struct FitNeighbour
-{
-  Quadrilateral quad; // in the own cell's unit coordinates
-  double inverse_area;
-  double fraction; // of what shall lie inside the line
-};
-
 struct LineFitProblem
 {
-  static constexpr int max_stored = 12; // further neighbours (of irregular nodes) are gathered again for every angle
-
-  ReconstructionField const &field;
-  CellComponents const &components;
+  CellNeighbours const &neighbours;
   Region const &polygon; // the part of the own cell that is divided
   double inside_volume, outside_volume;
-  ComponentSet set; // whose fractions in the neighbours are fitted
+  FractionDifference set; // whose fractions in the neighbours are fitted
   bool set_is_inside;
-  int num_neighbours;
-  FitNeighbour stored[max_stored];
+  Pack stored[CellNeighbours::stored_packs]; // fractions of what shall lie inside the line; 0 where none is present
 
-  KOKKOS_INLINE_FUNCTION FitNeighbour gather(int n) const
+  KOKKOS_INLINE_FUNCTION Pack gather(int p) const
   {
-    Rows const &rows = field.mesh.cell_neighbour;
-    int const cell = rows.item(rows.offset(components.cell) + n);
-    FitNeighbour neighbour;
-    neighbour.quad = unitQuadrilateral(field.mesh, components, cell);
-    neighbour.inverse_area = 1.0 / area(neighbour.quad);
-    double const given = setFraction(field, components, set, cell);
-    neighbour.fraction = set_is_inside ? given : 1.0 - given;
-    return neighbour;
+    Pack const given = neighbours.values(set, p);
+    return set_is_inside ? given : neighbours.present(p) - given;
   }
 
   KOKKOS_INLINE_FUNCTION void store()
   {
-    Rows const &rows = field.mesh.cell_neighbour;
-    num_neighbours = rows.offset(components.cell + 1) - rows.offset(components.cell);
-    for (int n = 0; n < Math::min(num_neighbours, max_stored); ++n)
-      stored[n] = gather(n);
+    for (int p = 0; p < Math::min(neighbours.packs(), CellNeighbours::stored_packs); ++p)
+      stored[p] = gather(p);
   }
+
+  KOKKOS_INLINE_FUNCTION Pack fraction(int p) const { return p < CellNeighbours::stored_packs ? stored[p] : gather(p); }
 };
 
-/// Turning by dtheta about the middle m of the own chord, which keeps the volume there, moves the chord (middle m_j,
-/// length L_j) of neighbour j so that its inside grows by L_j tau.(m - m_j) dtheta, tau = perpendicular(n).
-KOKKOS_INLINE_FUNCTION void addMisfit(FitNeighbour const &neighbour, Plane2 const &line, Vector2 const &middle,
-                                      LineMisfit &sum)
+/// What a line leaves of quadrilaterals: the area inside, and the rate at which it grows where the line turns.
+struct InsidePart
 {
-  HalfPlanePart const part = halfPlanePart(neighbour.quad, line);
-  double const residual = part.area * neighbour.inverse_area - neighbour.fraction;
-  double const rate =
-      part.chord_length * dot(perpendicular(line.normal), middle - part.chord_middle) * neighbour.inverse_area;
-  sum.value += residual * residual;
-  sum.gradient += rate * residual;
-  sum.hessian += rate * rate;
+  Pack area, rate;
+};
+
+/// Without branches: with d the distances of the corners from the line, s their places along it (from the point about
+/// which it turns), and f the part of an edge that lies inside, the area is the sum of f (d_a s_b - s_a d_b) / 2, since
+/// the chord, seen from a point of the line, adds nothing.
+///
+/// Turning by dtheta about the middle m of the own chord, which keeps the volume there, moves the chord (middle m_j,
+/// length L_j) of neighbour j so that its inside grows by L_j tau.(m - m_j) dtheta, tau = perpendicular(n): half the
+/// difference of the squares of its ends' places.
+KOKKOS_INLINE_FUNCTION InsidePart insidePart(NeighbourPack const &quad, Vector2 const &normal, Vector2 const &middle)
+{
+  Pack const nx = normal[0], ny = normal[1], mx = middle[0], my = middle[1], zero = 0.0, one = 1.0;
+  Pack d[4], s[4];
+  for (int k = 0; k < 4; ++k)
+  {
+    Pack const x = quad.x[k] - mx, y = quad.y[k] - my;
+    d[k] = nx * x + ny * y;
+    s[k] = nx * y - ny * x;
+  }
+  InsidePart part{zero, zero};
+  for (int k = 0; k < 4; ++k)
+  {
+    int const b = (k + 1) & 3;
+    auto const a_inside = d[k] <= zero, b_inside = d[b] <= zero;
+    auto const leaves = both(a_inside, no(b_inside)), enters = both(no(a_inside), b_inside);
+    Pack const crosses = select(leaves, one, select(enters, one, zero));
+    Pack const t = d[k] / select(crosses > zero, Pack(d[k] - d[b]), one);
+    Pack const inside = select(a_inside, select(b_inside, one, t), select(b_inside, Pack(one - t), zero));
+    part.area += inside * (d[k] * s[b] - s[k] * d[b]);
+    Pack const place = s[k] + t * (s[b] - s[k]), square = place * place;
+    part.rate += select(leaves, square, select(enters, Pack(-square), zero));
+  }
+  part.area = Pack(0.5) * part.area;
+  part.rate = Pack(0.5) * part.rate;
+  return part;
 }
 
 KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vector2 const &normal)
@@ -149,15 +94,22 @@ KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vect
   bool const cut_inside = problem.inside_volume <= problem.outside_volume;
   LineCut const own = cut_inside ? lineCut(problem.polygon, normal, problem.inside_volume)
                                  : lineCut(problem.polygon, -normal, problem.outside_volume);
-  Plane2 const line{normal, cut_inside ? own.offset : -own.offset};
   Vector2 const middle = 0.5 * (own.begin + own.end);
-  LineMisfit sum{0.0, 0.0, 0.0};
-  for (int n = 0; n < Math::min(problem.num_neighbours, LineFitProblem::max_stored); ++n)
-    addMisfit(problem.stored[n], line, middle, sum);
-  for (int n = LineFitProblem::max_stored; n < problem.num_neighbours; ++n)
-    addMisfit(problem.gather(n), line, middle, sum);
-  double const inverse_count = 1.0 / Math::max(1, problem.num_neighbours);
-  return {sum.value * inverse_count, sum.gradient * inverse_count, sum.hessian * inverse_count};
+  Pack value = 0.0, gradient = 0.0, hessian = 0.0;
+  NeighbourPack spare;
+  for (int p = 0; p < problem.neighbours.packs(); ++p)
+  {
+    NeighbourPack const &quad = problem.neighbours.pack(p, spare);
+    InsidePart const part = insidePart(quad, normal, middle);
+    Pack const per_area = quad.present / quad.area;
+    Pack const residual = part.area * per_area - problem.fraction(p);
+    Pack const rate = part.rate * per_area;
+    value += residual * residual;
+    gradient += rate * residual;
+    hessian += rate * rate;
+  }
+  double const inverse_count = 1.0 / Math::max(1, problem.neighbours.count());
+  return {laneSum(value) * inverse_count, laneSum(gradient) * inverse_count, laneSum(hessian) * inverse_count};
 }
 
 /// Angles between which the misfit has a minimum, as its slope's signs tell.
@@ -268,16 +220,17 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
   LeastSquaresLine best{fallback, 1.0, true};
   bool converged = true;
   double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
+  CellNeighbours const neighbours(field, components);
   int const sides = Detail::othersNear(field, components, inside | outside) ? 2 : 1;
   for (int start = 0; start < sides && best.misfit > poor_misfit; ++start)
     for (int side = 0; side < sides; ++side)
     {
       ComponentSet const set = side == 0 ? inside : outside;
-      Vector2 const gradient = leastSquaresGradient(field, components, {set, 0u});
+      Vector2 const gradient = leastSquaresGradient(field, components, neighbours, {set, 0u});
       if (norm(gradient) < 1e-13)
         continue;
       Vector2 const along_gradient = (side == 0 ? -1.0 : 1.0) * normalised(gradient);
-      Detail::LineFitProblem problem{field, components, polygon, inside_volume, outside_volume, set, side == 0, 0, {}};
+      Detail::LineFitProblem problem{neighbours, polygon, inside_volume, outside_volume, {set, 0u}, side == 0, {}};
       problem.store();
       LeastSquaresLine const line = Detail::fitAngle(problem, start == 0 ? along_gradient : fallback);
       converged = converged && line.converged;

@@ -42,7 +42,7 @@ struct Impact
     scene.mesh = buildMesh(rectilinearMesh(lines, lines));
     scene.boundary = buildBoundaryConditions(scene.mesh, deviceCopy("boundary", std::vector<Boundary>(4)));
     scene.materials = deviceCopy("materials", std::vector<Material>{metal(8930.0), metal(2700.0)});
-    scene.constraint.interaction = View<int **>("interaction", 2, 2);
+    scene.constraint.interaction = View<PairInteraction **>("interaction", 2, 2);
     scene.exchange = &alone;
     Body disc, block;
     disc.shape = Shape::disc({0.33, 0.52}, 0.15);

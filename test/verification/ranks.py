@@ -42,6 +42,16 @@ def test_squeezed_sliding_block():
     clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, SQUEEZE)))
 
 
+def test_breaking_bonds():
+    r = compare(HERE / "decks/peel.yaml")
+    assert r.summary["broken_bonds"] > 0
+    clean(r)
+
+
+def test_block_rubbing_on_an_incline():
+    clean(compare("incline/deck.yaml"))
+
+
 def test_single_velocity_block():
     clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, kinematics="single"), ranks=(4,)))
 

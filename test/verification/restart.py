@@ -68,6 +68,12 @@ def test_lagrangian():
     clean(*goes_on(BLOCKS))
 
 
+def test_bonds_that_break_before_and_after_the_stop():
+    whole, part = goes_on(HERE / "decks/peel.yaml", cycles=(33, 60))
+    assert 0 < part.summary["broken_bonds"] < whole.summary["broken_bonds"]
+    clean(whole, part)
+
+
 def test_disc_through_plate_with_a_row_every_seventh_cycle():
     # The row at cycle 33 was written because the run ended there: the run that goes on takes it back.
     clean(*goes_on(DISC, {"output/history/every_cycles": 7}, same_rows=False))

@@ -69,6 +69,8 @@ struct TinyScene
   View<double *> dof_mass;
   View<double *[2]> velocity_n, predicted, half;
   std::vector<RigidBody> bodies_n, bodies;
+  View<double *[3]> pair_stress; // Nitsche alone
+  std::vector<Bond> bonds;
   ConstraintOptions options;
   Exchange const *exchange = &serialExchange();
   double dt = 1e-3;
@@ -96,7 +98,7 @@ struct TinyScene
     }
     Kokkos::deep_copy(boundary, host_boundary);
     conditions = buildBoundaryConditions(mesh, boundary);
-    options.interaction = View<int **>("interaction", num_materials, num_materials);
+    options.interaction = View<PairInteraction **>("interaction", num_materials, num_materials);
     options.tolerance = 1e-12;
     lump(density);
   }
@@ -116,11 +118,19 @@ struct TinyScene
     applyConditions();
   }
 
+  void setInteraction(int a, int b, PairInteraction const &law)
+  {
+    auto const table = Kokkos::create_mirror_view(options.interaction);
+    Kokkos::deep_copy(table, options.interaction);
+    table(a, b) = table(b, a) = law;
+    Kokkos::deep_copy(options.interaction, table);
+  }
+
   ConstraintReport constrain()
   {
     bodies = bodies_n;
     return constrainVelocities(mesh, pairs, dof_nodes, regions, conditions, dof_mass, velocity_n, predicted, half,
-                               bodies_n, bodies, dt, options, *exchange);
+                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange);
   }
 
   void forEachDof(std::function<void(int, int, Vector2)> const &visit) const

@@ -14,11 +14,12 @@ namespace
 
 std::vector<ContactRow> rowsOf(TinyScene const &scene)
 {
-  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions);
+  InterfaceSegments const s =
+      findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
   SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
   BodyTable const bodies = buildBodyTable({}, static_cast<int>(scene.options.interaction.extent(0)));
   ContactRows const rows = buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins),
-                                            bins, bodies, scene.options);
+                                            bins, scene.conditions, bodies, scene.bonds, scene.options);
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
   return std::vector<ContactRow>(host.data(), host.data() + rows.count);
 }
@@ -204,9 +205,10 @@ TEST(ContactRows, packedAndUnpacked_giveTheSameVelocities)
   ConstraintReport const one = scene.constrain();
   auto const serial = Kokkos::create_mirror(scene.half);
   Kokkos::deep_copy(serial, scene.half);
-  ConstraintReport const two = constrainVelocities(
-      scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions, scene.dof_mass, scene.velocity_n,
-      scene.predicted, scene.half, {}, scene.bodies, scene.dt, scene.options, LoneExchange());
+  ConstraintReport const two =
+      constrainVelocities(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions, scene.dof_mass,
+                          scene.velocity_n, scene.predicted, scene.half, {}, scene.bodies, scene.dt, scene.pair_stress,
+                          scene.bonds, scene.options, LoneExchange());
   auto const packed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.half);
   EXPECT_EQ(one.iterations, two.iterations);
   EXPECT_EQ(one.contact_loss, two.contact_loss);

@@ -61,6 +61,17 @@ std::vector<int> expected(SegmentBins const &bins, std::vector<Vector2> const &x
   return number;
 }
 
+/// 1 for the segments whose numbers are divisible by three.
+View<int *> everyThird(SegmentBins const &bins)
+{
+  View<int *> const chosen("chosen", bins.item.extent(0));
+  View<BinnedSegment *> const item = bins.item;
+  Kokkos::parallel_for(
+      "everyThird", RangePolicy(0, bins.item.extent(0)),
+      KOKKOS_LAMBDA(int i) { chosen(i) = item(i).segment % 3 == 0 ? 1 : 0; });
+  return chosen;
+}
+
 void checkWalks(std::vector<Vector2> const &x, bool hashed)
 {
   SegmentBins const bins = binSegments(segmentsAt(x), 0.3);
@@ -93,4 +104,42 @@ TEST(SegmentBins, noSegments_walksMeetNothing)
 {
   SegmentBins const bins = binSegments(segmentsAt({}), 0.0);
   EXPECT_TRUE(walked(bins, {-1.0, -1.0}, {1.0, 1.0}).empty());
+}
+
+TEST(SegmentBins, chosenItems_areMetInTheSameOrderAndNoOthers)
+{
+  std::vector<Vector2> const x = scattered(300);
+  SegmentBins const bins = binSegments(segmentsAt(x), 0.3);
+  SegmentBins const third = chosenItems(bins, everyThird(bins));
+  for (Vector2 const &centre : scattered(40))
+  {
+    Vector2 const low{centre[0] - 0.7, centre[1] - 0.4}, high{centre[0] + 0.5, centre[1] + 0.9};
+    std::vector<int> expected_numbers;
+    for (int number : expected(bins, x, low, high))
+      if (number % 3 == 0)
+        expected_numbers.push_back(number);
+    EXPECT_EQ(walked(third, low, high), expected_numbers);
+  }
+}
+
+TEST(SegmentBins, boxWithOneMaterialAlone_holdsNoOthers)
+{
+  std::vector<Vector2> x;
+  for (int i = 0; i < 40; ++i)
+    x.push_back({0.1 * i, 0.05});
+  InterfaceSegments const segments = segmentsAt(x);
+  auto const host = Kokkos::create_mirror_view(segments.segment);
+  for (int i = 0; i < 40; ++i)
+  {
+    host(i).midpoint = x[static_cast<std::size_t>(i)];
+    host(i).material = i < 30 ? 5 : (i < 39 ? 70 : -1);
+  }
+  Kokkos::deep_copy(segments.segment, host);
+  SegmentBins const bins = binSegments(segments, 0.3);
+  EXPECT_FALSE(bins.holdOthers({0.0, 0.0}, {2.0, 0.3}, 5));
+  EXPECT_TRUE(bins.holdOthers({0.0, 0.0}, {2.0, 0.3}, 4));
+  EXPECT_TRUE(bins.holdOthers({0.0, 0.0}, {3.2, 0.3}, 5));
+  EXPECT_FALSE(bins.holdOthers({-9.0, -9.0}, {-8.0, -8.0}, 5));
+  // Materials from 63 on, and walls, share a bit: they are never told apart.
+  EXPECT_TRUE(bins.holdOthers({3.3, 0.0}, {3.5, 0.1}, 70));
 }

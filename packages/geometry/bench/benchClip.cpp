@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Bilinear.hpp>
 #include <Harmos_Clip.hpp>
+#include <Harmos_ClipPacks.hpp>
 #include <Harmos_Moments.hpp>
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -48,6 +50,15 @@ std::vector<OverlayPair> overlayPairs(int donors)
   return pairs;
 }
 
+// Seconds per item: shown as nanoseconds per pair.
+void report(benchmark::State &state, std::size_t pairs)
+{
+  state.SetItemsProcessed(state.iterations() * static_cast<long>(pairs));
+  state.counters["per_pair"] = benchmark::Counter(static_cast<double>(state.iterations() * pairs),
+                                                  benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["pairs_per_donor"] = static_cast<double>(pairs) / 1000.0;
+}
+
 void clipAndSecondMoments(benchmark::State &state)
 {
   std::vector<OverlayPair> const pairs = overlayPairs(1000);
@@ -67,13 +78,41 @@ void clipAndSecondMoments(benchmark::State &state)
     }
     benchmark::DoNotOptimize(sum);
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<long>(pairs.size()));
-  // Seconds per item: shown as nanoseconds per pair.
-  state.counters["per_pair"] = benchmark::Counter(static_cast<double>(state.iterations() * pairs.size()),
-                                                  benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  state.counters["pairs_per_donor"] = static_cast<double>(pairs.size()) / 1000.0;
+  report(state, pairs.size());
+}
+
+/// The same pairs; those of one donor fill packs, the last of them in part.
+void secondMomentsInPacks(benchmark::State &state)
+{
+  std::vector<OverlayPair> const pairs = overlayPairs(1000);
+  for (auto _ : state)
+  {
+    Pack sum = 0.0;
+    for (std::size_t begin = 0, end; begin < pairs.size(); begin = end)
+    {
+      Quadrilateral const &donor = pairs[begin].donor;
+      end = begin + 1;
+      while (end < pairs.size() && end - begin < pack_width && pairs[end].donor[0][0] == donor[0][0])
+        ++end;
+      double x[4], y[4];
+      WindowPack w;
+      for (int k = 0; k < 4; ++k)
+      {
+        x[k] = donor[k][0];
+        y[k] = donor[k][1];
+        double const dx = k == 1 || k == 2 ? 1.0 : 0.0, dy = k >= 2 ? 1.0 : 0.0;
+        w.x[k] = packOf([&](int lane) { return pairs[std::min(begin + lane, end - 1)].i + dx; });
+        w.y[k] = packOf([&](int lane) { return pairs[std::min(begin + lane, end - 1)].j + dy; });
+      }
+      OverlayPack const m = momentsInWindows(4, x, y, w);
+      sum += m.value[0] + m.value[5];
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  report(state, pairs.size());
 }
 
 } // namespace
 
 BENCHMARK(clipAndSecondMoments);
+BENCHMARK(secondMomentsInPacks);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -75,9 +76,9 @@ void CsvFile::append(std::string const &lines)
 
 void appendValue(std::string &line, double value)
 {
-  char text[40];
-  std::snprintf(text, sizeof(text), ",%.17g", value);
-  line += text;
+  char text[40] = ",";
+  char *const end = std::to_chars(text + 1, text + sizeof(text), value, std::chars_format::general, 17).ptr;
+  line.append(text, end);
 }
 
 void appendValue(std::string &line, long long value)

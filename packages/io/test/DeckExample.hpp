@@ -29,7 +29,7 @@ harmos:
     patch: {material: block, shape: polygon, points: [-1, 0, -1, 0.5, -0.5, 0], join: slider, cut: true}
   interactions:
     default: sliding
-    glue: {between: ring, and: patch, type: tied}
+    glue: {between: ring, and: patch, type: bonded, shear_strength: 5.0e6}
   probes:
     middle: {position: [0, 0]}
   run: {end_time: 1}

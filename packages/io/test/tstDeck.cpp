@@ -89,9 +89,14 @@ TEST(Deck, Interactions_areASymmetricMatrixOfFields)
   Deck const deck = example();
   int const n = static_cast<int>(deck.fields.size());
   int const slider = 2, ring = 3;
-  EXPECT_EQ(deck.interaction[slider * n + ring], Interaction::Tied);
-  EXPECT_EQ(deck.interaction[ring * n + slider], Interaction::Tied);
-  EXPECT_EQ(std::count(deck.interaction.begin(), deck.interaction.end(), Interaction::Tied), 2);
+  for (int at : {slider * n + ring, ring * n + slider})
+  {
+    EXPECT_EQ(deck.interaction[at].kind, Interaction::Bonded);
+    EXPECT_EQ(deck.interaction[at].strength.tensile, 0.0);
+    EXPECT_EQ(deck.interaction[at].strength.shear, 5.0e6);
+  }
+  auto const bonded = [](PairInteraction const &law) { return law.kind == Interaction::Bonded; };
+  EXPECT_EQ(std::count_if(deck.interaction.begin(), deck.interaction.end(), bonded), 2);
 }
 
 TEST(Deck, Pressure_isMetByTheInitialState)
@@ -130,10 +135,11 @@ TEST(Deck, Defaults_areThoseOfTheOptionStructs)
 
 TEST(Deck, Overrides_replaceValuesAndMakeMaps)
 {
-  Deck const deck = example({"kinematics=single", "bodies/slider/angle=30", "run/end_time=2", "numerics/remap/order=1",
-                             "numerics/remap/limiter=van leer", "numerics/remap/swept_faces=false",
-                             "numerics/reconstruction/removal_order=[ring, void, slider, gas, lower]",
-                             "boundaries/left={type: inflow, body: slider, velocity: [2, 0]}"});
+  Deck const deck =
+      example({"kinematics=single", "interactions={default: sliding}", "bodies/slider/angle=30", "run/end_time=2",
+               "numerics/remap/order=1", "numerics/remap/limiter=van leer", "numerics/remap/swept_faces=false",
+               "numerics/reconstruction/removal_order=[ring, void, slider, gas, lower]",
+               "boundaries/left={type: inflow, body: slider, velocity: [2, 0]}"});
   EXPECT_EQ(deck.kinematics, Kinematics::Single);
   EXPECT_DOUBLE_EQ(deck.bodies[2].shape.angle, Math::pi / 6.0);
   EXPECT_EQ(deck.run.end_time, 2.0);

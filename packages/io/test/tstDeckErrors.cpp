@@ -121,7 +121,8 @@ TEST(DeckErrors, ImpossibleValue_showsTheRange)
       "deck.yaml: kinematics: \"xfme\" is not allowed; did you mean \"xfem\"?; expected: xfem | single | lagrangian");
   EXPECT_EQ(message({"geometry=axisymmetric"}),
             "deck.yaml: geometry: \"axisymmetric\" is not allowed; expected: planar");
-  EXPECT_STARTS(message({"boundaries/left/friction=0.1"}), "deck.yaml: boundaries/left/friction: unknown key");
+  EXPECT_STARTS(message({"boundaries/left/friction=0.1"}),
+                "deck.yaml: boundaries/left/friction: does not belong here, only where type = contact wall");
   EXPECT_HAS(message({"mesh/x/to=-3"}), "mesh/x/to: -3.0 is not above from = -2.0");
 }
 

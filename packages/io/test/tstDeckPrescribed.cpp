@@ -92,7 +92,7 @@ TEST(DeckPrescribed, whatMeansNothingWithIt_isRefused)
   expectRefused("bodies/disc/material=stone", "deck.yaml: bodies/disc/material: a rigid law means nothing");
   expectRefused("boundaries/left={type: outflow}", "deck.yaml: boundaries/left/type: material that moves with");
   expectRefused("mesh/smoother/relax=0.1", "deck.yaml: mesh/smoother: it means nothing with a prescribed_velocity");
-  expectRefused("interactions/default=tied", "deck.yaml: interactions: tied means nothing");
+  expectRefused("interactions/default=bonded", "deck.yaml: interactions: a bond or friction means nothing");
   expectRefused("numerics/remap/return_kinetic_defect=true", "deck.yaml: numerics/remap/return_kinetic_defect: true");
   expectRefused("bodies/disc={material: fluid, shape: rectangle, center: [0.5, 0.5], size: [1, 1]}", "accepted");
 }

@@ -124,14 +124,15 @@ TEST(ContactLog, cutAfterACycle_dropsAllLinesOfLaterCycles)
   {
     ContactLog log("contact.csv", true);
     for (int cycle = 1; cycle <= 3; ++cycle)
-      log.write(cycle, 0.5 * cycle, {{"rod", "anvil", 1.0, -2.0, 3.0, 0.25}, {"rod", "wall", 0.0, 1.0, 1.0, 0.5}});
+      log.write(cycle, 0.5 * cycle,
+                {{"rod", "anvil", 1.0, -2.0, 3.0, 0.25, 8.0}, {"rod", "wall", 0.0, 1.0, 1.0, 0.5, 0.0}});
   }
   {
     ContactLog log("contact.csv", true, CsvStart::after(1));
     log.write(2, 1.0, {});
   }
-  EXPECT_EQ(readWholeFile("contact.csv"), "cycle,time,a,b,force_x,force_y,normal_impulse,area\n"
-                                          "1,0.5,rod,anvil,1,-2,3,0.25\n1,0.5,rod,wall,0,1,1,0.5\n");
+  EXPECT_EQ(readWholeFile("contact.csv"), "cycle,time,a,b,force_x,force_y,normal_impulse,area,deviation\n"
+                                          "1,0.5,rod,anvil,1,-2,3,0.25,8\n1,0.5,rod,wall,0,1,1,0.5,0\n");
 }
 
 TEST(Summary, text_escapesAndReplacesWhatJsonCannotHold)
@@ -168,6 +169,7 @@ TEST(Summary, file_holdsEveryKeyInOrder)
                           "energy_error",
                           "angular_momentum_drift",
                           "unconverged_cycles",
+                          "broken_bonds",
                           "merged_fragments",
                           "unfinished_interfaces",
                           "warnings",

@@ -191,7 +191,8 @@ TEST(Reconstruct, bothGradients_areExactForLinearFractionsOnShakenQuads)
       "gradients", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int const cell) {
         CellComponents const components = cellComponents(field, cell, false);
         Vector2 const youngs = (1.0 / components.size) * youngsGradient(field, components, {1u, 0u});
-        Vector2 const fitted = (1.0 / components.size) * leastSquaresGradient(field, components, {1u, 0u});
+        Vector2 const fitted = (1.0 / components.size) *
+                               leastSquaresGradient(field, components, CellNeighbours(field, components), {1u, 0u});
         for (int d = 0; d < 2; ++d)
         {
           gradient(cell, d) = youngs[d];

@@ -72,6 +72,7 @@ struct PolynomialFinder
 {
   using Polynomial = DonorPolynomial;
   using OverlayMoments = Moments<2>;
+  static KOKKOS_INLINE_FUNCTION constexpr bool overlaysInPacks() { return true; }
 
   Input in;
   Classes classes;

@@ -2,6 +2,7 @@
 #ifndef HARMOS_OVERLAY_MOMENTS_HPP
 #define HARMOS_OVERLAY_MOMENTS_HPP
 
+#include <Harmos_ClipPacks.hpp>
 #include <Harmos_Mesh.hpp>
 #include <Harmos_Moments.hpp>
 
@@ -105,6 +106,22 @@ KOKKOS_INLINE_FUNCTION Window windowAbout(Mesh const &mesh, int cell, Vector2 co
     int const node = mesh.cell_node(cell, k);
     w.x[k] = mesh.node_position(node, 0) - centre[0];
     w.y[k] = mesh.node_position(node, 1) - centre[1];
+  }
+  return w;
+}
+
+/// The corners of pack_width cells relative to a point.
+KOKKOS_FORCEINLINE_FUNCTION WindowPack windowsAbout(Mesh const &mesh, int const *cell, Vector2 const &centre)
+{
+  WindowPack w;
+  Pack const x = centre[0], y = centre[1];
+  for (int k = 0; k < 4; ++k)
+  {
+    int node[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      node[lane] = mesh.cell_node(cell[lane], k);
+    w.x[k] = packOf([&](int lane) { return mesh.node_position(node[lane], 0); }) - x;
+    w.y[k] = packOf([&](int lane) { return mesh.node_position(node[lane], 1); }) - y;
   }
   return w;
 }

@@ -86,6 +86,19 @@ struct DonorAtWork
   int largest_slot;
 };
 
+/// Cells whose overlays with a donor are found at once.
+struct SlotPack
+{
+  int count = 0;
+  int slot[pack_width], acceptor[pack_width];
+
+  KOKKOS_INLINE_FUNCTION void add(int its_slot, int its_acceptor)
+  {
+    slot[count] = its_slot;
+    acceptor[count++] = its_acceptor;
+  }
+};
+
 /// Finder: PolynomialFinder, QuadraticFinder.
 template <class Finder>
 struct IntersectFunctor : Finder
@@ -148,6 +161,47 @@ struct IntersectFunctor : Finder
     take(d, 0, d.cell, m);
   }
 
+  KOKKOS_INLINE_FUNCTION void takeIfAny(Donor &d, int slot, int acceptor, OverlayMoments const &m) const
+  {
+    if (m.volume() > least_overlay * in.mesh.cell_area(acceptor))
+      take(d, slot, acceptor, m);
+  }
+
+  /// The overlay with one cell.
+  KOKKOS_INLINE_FUNCTION void takeSlot(Donor &d, MovedVertices const &v, int slot, int acceptor) const
+  {
+    bool whole = false;
+    Window const w = windowAbout(in.mesh, acceptor, d.centroid);
+    OverlayMoments m = momentsInside<OverlayMoments, max_region_vertices>(v.size, v.x, v.y, w, whole);
+    if (whole)
+      m = Finder::wholeMoments(d.number, v);
+    takeIfAny(d, slot, acceptor, m);
+  }
+
+  /// The overlays with the cells of a pack, which is emptied.
+  KOKKOS_INLINE_FUNCTION void takePack(Donor &d, MovedVertices const &v, SlotPack &pack) const
+  {
+    for (int lane = pack.count; lane < pack_width; ++lane)
+      pack.acceptor[lane] = pack.acceptor[0];
+    OverlayPack const m = momentsInWindows(v.size, v.x, v.y, windowsAbout(in.mesh, pack.acceptor, d.centroid));
+    double value[Moments<2>::count][pack_width];
+    for (int i = 0; i < Moments<2>::count; ++i)
+      storePack(value[i], m.value[i]);
+    for (int lane = 0; lane < pack.count; ++lane)
+    {
+      if (laneOf(m.pieces, lane) > 1.0)
+      {
+        takeSlot(d, v, pack.slot[lane], pack.acceptor[lane]);
+        continue;
+      }
+      OverlayMoments one;
+      for (int i = 0; i < Moments<2>::count; ++i)
+        one.value[i] = value[i][lane];
+      takeIfAny(d, pack.slot[lane], pack.acceptor[lane], one);
+    }
+    pack.count = 0;
+  }
+
   KOKKOS_INLINE_FUNCTION void intersectCells(Donor &d, MovedVertices const &v) const
   {
     Region const &region = donors.polygon(d.number);
@@ -159,24 +213,31 @@ struct IntersectFunctor : Finder
       low_y = Math::min(low_y, region[i][1]);
       high_y = Math::max(high_y, region[i][1]);
     }
+    auto const candidate = [&](int acceptor)
+    {
+      return classes.interface_index(acceptor) >= 0 && high_x > in.links.box(acceptor, 0) &&
+             low_x < in.links.box(acceptor, 2) && high_y > in.links.box(acceptor, 1) &&
+             low_y < in.links.box(acceptor, 3);
+    };
     int const row = in.mesh.cell_neighbour.offset(d.cell);
     int const slots = 1 + in.mesh.cell_neighbour.offset(d.cell + 1) - row;
-    bool whole = false;
-    for (int s = 0; s < slots && !whole; ++s)
+    SlotPack pack;
+    for (int s = 0; s < slots; ++s)
     {
       int const acceptor = s == 0 ? d.cell : in.mesh.cell_neighbour.item(row + s - 1);
-      if (classes.interface_index(acceptor) < 0)
+      if (!candidate(acceptor))
         continue;
-      if (high_x <= in.links.box(acceptor, 0) || low_x >= in.links.box(acceptor, 2) ||
-          high_y <= in.links.box(acceptor, 1) || low_y >= in.links.box(acceptor, 3))
+      if (!Finder::overlaysInPacks() || v.size > most_pack_vertices)
+      {
+        takeSlot(d, v, s, acceptor);
         continue;
-      Window const w = windowAbout(in.mesh, acceptor, d.centroid);
-      OverlayMoments m = momentsInside<OverlayMoments, max_region_vertices>(v.size, v.x, v.y, w, whole);
-      if (whole)
-        m = Finder::wholeMoments(d.number, v);
-      if (m.volume() > least_overlay * in.mesh.cell_area(acceptor))
-        take(d, s, acceptor, m);
+      }
+      pack.add(s, acceptor);
+      if (pack.count == pack_width)
+        takePack(d, v, pack);
     }
+    if (pack.count > 0)
+      takePack(d, v, pack);
   }
 
   /// A donor of which nothing is left above the threshold stays whole: its volume fraction at its old centroid.

@@ -49,6 +49,7 @@ struct QuadraticFinder : PolynomialFinder
 {
   using Polynomial = QuadraticPolynomial;
   using OverlayMoments = QuarticMoments;
+  static KOKKOS_INLINE_FUNCTION constexpr bool overlaysInPacks() { return false; }
 
   KOKKOS_INLINE_FUNCTION explicit QuadraticFinder(PolynomialFinder const &finder) : PolynomialFinder(finder) {}
 

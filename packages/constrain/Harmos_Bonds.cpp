@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ConstraintSums.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace Harmos
+{
+
+namespace
+{
+
+/// A bond as it travels: key of its row, point, materials.
+constexpr int bond_width = 5;
+
+/// The values of all ranks one after the other, in the order of the ranks.
+std::vector<double> gather(std::vector<double> const &own, Exchange const &exchange)
+{
+  std::vector<long long> count(static_cast<std::size_t>(exchange.size()), 0);
+  std::size_t const rank = static_cast<std::size_t>(exchange.rank());
+  count[rank] = static_cast<long long>(own.size());
+  exchange.sum(count.data(), exchange.size());
+  long long begin = 0, total = 0;
+  for (std::size_t r = 0; r < count.size(); total += count[r++])
+    begin += r < rank ? count[r] : 0;
+  std::vector<double> all(static_cast<std::size_t>(total), 0.0);
+  std::copy(own.begin(), own.end(), all.begin() + begin);
+  exchange.sum(all.data(), static_cast<int>(total));
+  return all;
+}
+
+/// Largest gap at which two bodies touch. [cell sizes]
+constexpr double touching = 1e-3;
+
+/// Rows of one slave cell follow each other: the first of each pair of materials makes the bond.
+std::vector<double> ownBonds(Mesh const &mesh, ContactRows const &rows, HostView<PairInteraction **> const &law)
+{
+  auto const row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
+  auto const own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.own);
+  auto const cell_area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_area);
+  std::vector<double> bonds;
+  std::vector<std::array<int, 3>> made;
+  for (int i = 0; i < rows.num_own; ++i)
+  {
+    ContactRow const &r = row(own(i));
+    if (r.material_b < 0 || r.gap > touching * std::sqrt(cell_area(r.cell_a)))
+      continue;
+    PairInteraction const &pair = law(r.material_a, r.material_b);
+    if (pair.kind != Interaction::Bonded || !pair.strength.limited())
+      continue;
+    std::array<int, 3> const here = {r.cell_a, std::min(r.material_a, r.material_b),
+                                     std::max(r.material_a, r.material_b)};
+    if (!made.empty() && made.front()[0] != here[0])
+      made.clear();
+    if (std::find(made.begin(), made.end(), here) != made.end())
+      continue;
+    made.push_back(here);
+    bonds.insert(bonds.end(), {static_cast<double>(r.key), r.point[0], r.point[1], static_cast<double>(here[1]),
+                               static_cast<double>(here[2])});
+  }
+  return bonds;
+}
+
+HostView<PairInteraction **> onHost(View<PairInteraction **> const &interaction)
+{
+  HostView<PairInteraction **> const host("Harmos::constrain::interaction_host", interaction.extent(0),
+                                          interaction.extent(1));
+  Kokkos::deep_copy(host, interaction);
+  return host;
+}
+
+bool canBreak(HostView<PairInteraction **> const &law)
+{
+  for (std::size_t i = 0; i < law.extent(0); ++i)
+    for (std::size_t j = 0; j < law.extent(1); ++j)
+      if (law(i, j).kind == Interaction::Bonded && law(i, j).strength.limited())
+        return true;
+  return false;
+}
+
+} // namespace
+
+bool breaks(BondLoad const &load, BondStrength const &strength, double dt)
+{
+  if (!(load.length > 0.0))
+    return false;
+  double const normal = std::max(-load.normal, 0.0) / (dt * load.length), shear = load.tangential / (dt * load.length);
+  double const part_n = strength.tensile > 0.0 ? normal / strength.tensile : 0.0;
+  double const part_t = strength.shear > 0.0 ? shear / strength.shear : 0.0;
+  return part_n * part_n + part_t * part_t >= 1.0;
+}
+
+std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                            FilledRegions const &regions, BoundaryConditions const &conditions,
+                            std::vector<RigidBody> const &bodies, ConstraintOptions const &options,
+                            Exchange const &exchange)
+{
+  auto const law = onHost(options.interaction);
+  if (!canBreak(law))
+    return {};
+  BodyTable const table = buildBodyTable(bodies, static_cast<int>(law.extent(0)));
+  ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, {}, options, exchange);
+  std::vector<double> const values = gather(ownBonds(mesh, rows, law), exchange);
+  std::vector<std::array<double, bond_width>> found(values.size() / bond_width);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    found[i / bond_width][i % bond_width] = values[i];
+  std::sort(found.begin(), found.end());
+  std::vector<Bond> bonds;
+  for (auto const &f : found)
+    bonds.push_back({{f[1], f[2]}, static_cast<int>(f[3]), static_cast<int>(f[4]), false});
+  return bonds;
+}
+
+int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double dt, std::vector<Bond> &bonds)
+{
+  if (bonds.empty())
+    return 0;
+  auto const law = onHost(options.interaction);
+  int count = 0;
+  for (std::size_t i = 0; i < bonds.size(); ++i)
+    if (!bonds[i].broken && breaks(load[i], law(bonds[i].material_a, bonds[i].material_b).strength, dt))
+    {
+      bonds[i].broken = true;
+      ++count;
+    }
+  return count;
+}
+
+void sumBondLoads(ContactRows const &rows, View<double *[2]> const &impulse, Exchange const &exchange,
+                  std::vector<BondLoad> &load)
+{
+  if (load.empty())
+    return;
+  auto const row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
+  auto const own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.own);
+  auto const p = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), impulse);
+  double largest[3] = {0.0, 0.0, 0.0};
+  auto const forEachTerm = [&](auto const &use)
+  {
+    for (int i = 0; i < rows.num_own; ++i)
+    {
+      ContactRow const &r = row(own(i));
+      double const term[3] = {p(own(i), 0), p(own(i), 1), r.length};
+      for (int c = 0; r.bond >= 0 && c < 3; ++c)
+        use(static_cast<std::size_t>(r.bond), c, term[c]);
+    }
+  };
+  forEachTerm([&](std::size_t, int c, double term) { largest[c] = std::max(largest[c], std::fabs(term)); });
+  ReproducibleSum sum[3];
+  for (int c = 0; c < 3; ++c)
+    sum[c] = reproducibleSum(exchange.max(largest[c]), rows.num_multipliers);
+  std::vector<long long> quanta(3 * load.size(), 0);
+  forEachTerm([&](std::size_t bond, int c, double term)
+              { quanta[3 * bond + static_cast<std::size_t>(c)] += sum[c].quanta(term); });
+  exchange.sum(quanta.data(), static_cast<int>(quanta.size()));
+  for (std::size_t i = 0; i < load.size(); ++i)
+    load[i] = {sum[0].value(quanta[3 * i]), sum[1].value(quanta[3 * i + 1]), sum[2].value(quanta[3 * i + 2])};
+}
+
+} // namespace Harmos

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CONSTRAINT_OPTIONS_HPP
+#define HARMOS_CONSTRAINT_OPTIONS_HPP
+
+#include <Harmos_Bonds.hpp>
+#include <Harmos_Kokkos.hpp>
+
+namespace Harmos
+{
+
+enum class Interaction : int
+{
+  Sliding, // frictionless, free to separate
+  Bonded,  // no relative velocity at all, until the bond breaks
+  Friction // Coulomb, free to separate
+};
+
+/// How two materials act on each other.
+struct PairInteraction
+{
+  Interaction kind = Interaction::Sliding;
+  double friction = 0.0; // Friction: coefficient
+  BondStrength strength; // Bonded
+};
+
+/// How the multipliers are found.
+enum class MultiplierMethod : int
+{
+  ConjugateGradients, // with projections (doc/decisions/0004)
+  RowSums             // p <- bounds(p - r / D)
+};
+
+/// What acts at the interfaces.
+enum class ConstraintMethod : int
+{
+  Multipliers, // forward-increment Lagrange multipliers, one for each interface segment
+  Penalty,     // traction in proportion to the closing velocity of v*
+  Nitsche,     // mean stress of both sides, and a penalty on the closing velocity of v^{n-1/2}
+  Nodal,       // contact at nodes that several materials move, along the gradient of their volumes (as in MPM)
+  Merged       // all materials at a node stick
+};
+
+/// Where on an interface segment the multipliers stand.
+enum class Placement : int
+{
+  Midpoint,
+  GaussPoints, // two
+  SegmentEnds  // two
+};
+
+struct ConstraintOptions
+{
+  ConstraintMethod method = ConstraintMethod::Multipliers;
+  Placement placement = Placement::Midpoint;
+  double penalty = 1.0;     // Penalty, Nitsche: traction over impedance times velocity
+  View<double *> impedance; // materials: density times longitudinal wave speed [kg/(m^2 s)], 0: rigid
+  MultiplierMethod solver = MultiplierMethod::ConjugateGradients;
+  View<PairInteraction **> interaction; // (materials, materials), symmetric
+  double tolerance = 1e-8;              // of max(largest predicted |G v|, 1e-6 speed_scale)
+  int max_iterations = 1000;
+  double speed_scale = 0.0;      // of the scene [m/s]
+  double shortest_segment = 0.1; // of the cell size; shorter segments carry no row
+  double exposed_face = 0.5;     // least exposed part of a cell face that carries a row
+};
+
+} // namespace Harmos
+
+#endif

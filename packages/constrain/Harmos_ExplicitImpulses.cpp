@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ContactOperator.hpp>
+#include <Harmos_ExplicitImpulses.hpp>
+
+namespace Harmos
+{
+
+namespace
+{
+
+struct RowForce
+{
+  StateBefore before;
+  ContactSystem system;
+  View<ContactRow *> row;
+  View<double *> impedance;
+  bool nitsche;
+  double penalty, dt;
+
+  /// Cauchy traction on the plane of normal n of one side's pair.
+  KOKKOS_INLINE_FUNCTION Vector2 traction(int cell, int material, Vector2 const &n) const
+  {
+    int const pair = before.pairs.find(cell, material);
+    auto const &s = before.pair_stress;
+    return {s(pair, 0) * n[0] + s(pair, 2) * n[1], s(pair, 2) * n[0] + s(pair, 1) * n[1]};
+  }
+
+  /// v_b - v_a at the start of the cycle.
+  KOKKOS_INLINE_FUNCTION Vector2 startVelocity(ContactRow const &r) const
+  {
+    Vector2 v{0.0, 0.0};
+    for (int side = 0; side < 2; ++side)
+    {
+      double const sign = side == 0 ? -1.0 : 1.0;
+      int const body = side == 0 ? r.body_a : r.body_b;
+      if (body >= 0)
+        v += sign * before.bodies_n.body(body).velocityAt(side == 0 ? r.point : r.point + r.gap * r.normal);
+      for (int k = 0; k < 4; ++k)
+      {
+        int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
+        double const w = sign * (side == 0 ? r.weight_a[k] : r.weight_b[k]);
+        if (dof >= 0)
+          v += w * Vector2{before.velocity_n(dof, 0), before.velocity_n(dof, 1)};
+      }
+    }
+    return v;
+  }
+
+  /// Impulses along n and across it of one row.
+  KOKKOS_INLINE_FUNCTION Vector2 operator()(int i) const
+  {
+    ContactRow const &r = row(i);
+    double const z_a = r.body_a == -1 ? impedance(r.material_a) : 0.0;
+    double const z_b = r.body_b == -1 ? impedance(r.material_b) : 0.0;
+    bool const both = z_a > 0.0 && z_b > 0.0;
+    double const z = both ? 2.0 * z_a * z_b / (z_a + z_b) : Math::max(z_a, z_b);
+    Vector2 const n = r.normal, t = perpendicular(n);
+    double const closing = r.tied ? 0.0 : Math::max(r.gap, 0.0) / dt;
+    Vector2 velocity{system.predicted(i, 0), system.predicted(i, 1)};
+    Vector2 stress{0.0, 0.0};
+    if (nitsche)
+    {
+      Vector2 const v = startVelocity(r);
+      velocity = {dot(n, v) + closing, dot(t, v)};
+      double const part_a = both ? z_b / (z_a + z_b) : (z_a > 0.0 ? 1.0 : 0.0);
+      Vector2 mean{0.0, 0.0};
+      if (z_a > 0.0)
+        mean += part_a * traction(r.cell_a, r.material_a, n);
+      if (z_b > 0.0)
+        mean += (1.0 - part_a) * traction(r.cell_b, r.material_b, n);
+      stress = {dot(n, mean), dot(t, mean)};
+    }
+    double const scale = dt * r.length;
+    Vector2 p{scale * (-stress[0] - penalty * z * velocity[0]), scale * (-stress[1] - penalty * z * velocity[1])};
+    p[0] = system.bounds(i, 0, 0.0).clip(p[0]);
+    p[1] = system.directions(i) == 2 ? system.bounds(i, 1, system.friction(i) * p[0]).clip(p[1]) : 0.0;
+    return p;
+  }
+};
+
+} // namespace
+
+MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem const &system, ContactRows const &rows,
+                                    double dt, ConstraintOptions const &options, Exchange const &exchange)
+{
+  ContactOperator const contact(system, rows, exchange);
+  View<double *[2]> const impulse("Harmos::constrain::impulse", system.num_rows);
+  View<double *[2]> const relative("Harmos::constrain::relative", system.num_rows);
+  RowForce const force{
+      before, system, rows.row, options.impedance, options.method == ConstraintMethod::Nitsche, options.penalty, dt};
+  View<int *> const own = system.own;
+  Kokkos::parallel_for(
+      "Harmos::constrain::explicitImpulses", RangePolicy(0, system.num_own), KOKKOS_LAMBDA(int i) {
+        Vector2 const p = force(own(i));
+        impulse(own(i), 0) = p[0];
+        impulse(own(i), 1) = p[1];
+      });
+  contact.product(impulse, relative);
+  MultiplierSolution solution{impulse, contact.change(), contact.bodyChange()};
+  solution.iterations = 1;
+  return solution;
+}
+
+} // namespace Harmos

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_DeckContact.hpp>
+
+namespace Harmos
+{
+
+namespace
+{
+
+using Teuchos::ParameterList;
+
+/// Zero where the key is not given.
+double optionalNumber(ParameterList const &list, char const *key)
+{
+  return list.isParameter(key) ? list.get<double>(key) : 0.0;
+}
+
+void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &deck)
+{
+  std::string const path = "numerics/constraint/method";
+  std::string const method = list.get<std::string>("method");
+  bool const is_explicit = method == "penalty" || method == "nitsche";
+  deck.constraint.method = method == "penalty"   ? ConstraintMethod::Penalty
+                           : method == "nitsche" ? ConstraintMethod::Nitsche
+                           : method == "nodal"   ? ConstraintMethod::Nodal
+                           : method == "merged"  ? ConstraintMethod::Merged
+                                                 : ConstraintMethod::Multipliers;
+  if (method == "multipliers")
+  {
+    std::string const placement = list.get<std::string>("placement");
+    deck.constraint.placement = placement == "gauss points"   ? Placement::GaussPoints
+                                : placement == "segment ends" ? Placement::SegmentEnds
+                                                              : Placement::Midpoint;
+  }
+  if (is_explicit)
+    deck.constraint.penalty = list.get<double>("penalty");
+  if (list.get<std::string>("solver") == "row sums")
+    deck.constraint.solver = MultiplierMethod::RowSums;
+  check.require(!is_explicit || deck.constraint.solver == MultiplierMethod::ConjugateGradients,
+                "numerics/constraint/solver", "\"row sums\" has nothing to solve with method " + method);
+  for (BodySpec const &body : deck.bodies)
+    check.require(!is_explicit || body.motion != RigidMotion::Free, path,
+                  "\"" + method + "\" takes its stiffness from deformable bodies, and " + body.name +
+                      " is rigid and free; expected: multipliers, nodal or merged");
+  if (method != "nodal" && method != "merged")
+    return;
+  check.require(deck.kinematics == Kinematics::Xfem, path,
+                "\"" + method + "\" acts at nodes that several materials share; expected: kinematics xfem");
+  for (int side = 0; side < num_boundary_sides; ++side)
+    check.require(deck.boundary[side].kind != BoundaryKind::ContactWall,
+                  std::string("boundaries/") + side_name[side] + "/type",
+                  "a contact wall has no nodes of its own for method " + method + "; expected: slip wall");
+  bool breaks = false, interacts = false;
+  for (PairInteraction const &law : deck.interaction)
+  {
+    breaks = breaks || law.strength.limited();
+    interacts = interacts || law.kind != Interaction::Sliding;
+  }
+  check.require(!breaks, path, "\"" + method + "\" knows no strength of a bond; expected: multipliers");
+  check.require(method == "nodal" || !interacts, path, "\"merged\" lets nothing slide; expected: interactions sliding");
+}
+
+} // namespace
+
+void convertInteractions(DeckChecker const &check, ParameterList const &list, Deck &deck)
+{
+  int const n = static_cast<int>(deck.fields.size());
+  auto const read = [&](ParameterList const &item, char const *key, std::string const &path)
+  {
+    PairInteraction law;
+    std::string const word = item.get<std::string>(key);
+    check.require(word == "sliding" || deck.kinematics != Kinematics::Single, path,
+                  "\"" + word + "\" has no meaning where all materials of a cell share one velocity; expected: " +
+                      "sliding, or kinematics xfem or lagrangian");
+    law.kind = word == "bonded"     ? Interaction::Bonded
+               : word == "friction" ? Interaction::Friction
+                                    : Interaction::Sliding;
+    if (law.kind == Interaction::Friction)
+      law.friction = item.get<double>("coefficient");
+    if (law.kind == Interaction::Bonded)
+      law.strength = {optionalNumber(item, "tensile_strength"), optionalNumber(item, "shear_strength")};
+    return law;
+  };
+  deck.interaction.assign(static_cast<std::size_t>(n) * n, read(list, "default", "interactions/default"));
+  for (auto i = list.begin(); i != list.end(); ++i)
+  {
+    if (!list.entry(i).isList())
+      continue;
+    ParameterList const &item = list.sublist(list.name(i));
+    std::string const path = "interactions/" + list.name(i);
+    int field[2];
+    for (int k = 0; k < 2; ++k)
+    {
+      char const *key = k == 0 ? "between" : "and";
+      std::string const name = item.get<std::string>(key);
+      field[k] = deck.bodies[requireIndex(check, deck.bodies, name, keyPath(path, key), "body")].field;
+    }
+    check.require(field[0] != field[1], path, "both bodies share one velocity field");
+    PairInteraction const law = read(item, "type", keyPath(path, "type"));
+    deck.interaction[field[0] * n + field[1]] = law;
+    deck.interaction[field[1] * n + field[0]] = law;
+  }
+}
+
+void convertConstraint(DeckChecker const &check, ParameterList const &list, Deck &deck)
+{
+  convertMethod(check, list, deck);
+  deck.constraint.tolerance = list.get<double>("tolerance");
+  deck.constraint.max_iterations = list.get<int>("max_iterations");
+  deck.constraint.shortest_segment = list.get<double>("shortest_segment");
+  deck.constraint.exposed_face = list.get<double>("exposed_face");
+}
+
+} // namespace Harmos

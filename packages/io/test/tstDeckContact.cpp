@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DeckExample.hpp"
+
+#include <Harmos_DeckReader.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+
+namespace
+{
+
+Deck read(std::vector<std::string> const &overrides)
+{
+  return readDeckText(exampleDeck(), "deck.yaml", overrides);
+}
+
+void expectRefused(std::vector<std::string> const &overrides, std::string const &start)
+{
+  try
+  {
+    read(overrides);
+    ADD_FAILURE() << start << ": accepted";
+  }
+  catch (DeckError const &error)
+  {
+    EXPECT_EQ(std::string(error.what()).substr(0, start.size()), start);
+  }
+}
+
+} // namespace
+
+TEST(DeckContact, theDefault_hasItsKeysBesideIt)
+{
+  Deck const deck = read({"interactions/default=friction", "interactions/coefficient=0.3"});
+  EXPECT_EQ(deck.interaction[1].kind, Interaction::Friction);
+  EXPECT_EQ(deck.interaction[1].friction, 0.3);
+  Deck const bonded = read({"interactions/default=bonded", "interactions/tensile_strength=1e6"});
+  EXPECT_EQ(bonded.interaction[1].strength.tensile, 1e6);
+  EXPECT_EQ(bonded.interaction[1].strength.shear, 0.0);
+  EXPECT_EQ(read({"boundaries/left={type: contact wall, friction: 0.2}"}).boundary[0].friction, 0.2);
+}
+
+TEST(DeckContact, everyMethodHasItsWord)
+{
+  EXPECT_EQ(read({}).constraint.method, ConstraintMethod::Multipliers);
+  EXPECT_EQ(read({"numerics/constraint/method=penalty"}).constraint.method, ConstraintMethod::Penalty);
+  EXPECT_EQ(read({"numerics/constraint={method: nitsche, penalty: 0.3}"}).constraint.method, ConstraintMethod::Nitsche);
+  EXPECT_EQ(read({"numerics/constraint={method: nitsche, penalty: 0.3}"}).constraint.penalty, 0.3);
+  std::string const open = "boundaries/top={type: outflow}"; // the example has a contact wall there
+  std::string const slides = "interactions={default: sliding}";
+  EXPECT_EQ(read({slides, open, "numerics/constraint/method=nodal"}).constraint.method, ConstraintMethod::Nodal);
+  EXPECT_EQ(read({slides, open, "numerics/constraint/method=merged"}).constraint.method, ConstraintMethod::Merged);
+  EXPECT_EQ(read({"numerics/constraint/placement=gauss points"}).constraint.placement, Placement::GaussPoints);
+  EXPECT_EQ(read({"numerics/constraint/placement=segment ends"}).constraint.placement, Placement::SegmentEnds);
+  EXPECT_EQ(read({"numerics/constraint/solver=row sums"}).constraint.solver, MultiplierMethod::RowSums);
+}
+
+TEST(DeckContact, whatHasNoMeaning_isRefused)
+{
+  expectRefused({"interactions/default=friction"}, "deck.yaml: interactions/coefficient: ");
+  expectRefused({"interactions/default=tied"}, "deck.yaml: interactions/default: \"tied\" is not allowed");
+  expectRefused({"interactions/coefficient=0.3"},
+                "deck.yaml: interactions/coefficient: does not belong here, only where default = friction");
+  expectRefused({"interactions/glue/tensile_strength=-1"}, "deck.yaml: interactions/glue/tensile_strength: -1");
+  expectRefused({"kinematics=single"}, "deck.yaml: interactions/glue/type: \"bonded\" has no meaning");
+  expectRefused({"numerics/constraint={method: nitsche, placement: gauss points}"},
+                "deck.yaml: numerics/constraint/placement: does not belong here");
+  expectRefused({"numerics/constraint/penalty=1"}, "deck.yaml: numerics/constraint/penalty: does not belong here");
+  expectRefused({"numerics/constraint={method: penalty, solver: row sums}"},
+                "deck.yaml: numerics/constraint/solver: \"row sums\" has nothing to solve with method penalty");
+  expectRefused({"numerics/constraint/method=penalty",
+                 "bodies/lower={material: platen, shape: disc, center: [0, 0], radius: 1, motion: free}"},
+                "deck.yaml: numerics/constraint/method: \"penalty\" takes its stiffness from deformable bodies");
+  std::string const open = "boundaries/top={type: outflow}";
+  expectRefused({open, "numerics/constraint/method=nodal"},
+                "deck.yaml: numerics/constraint/method: \"nodal\" knows no strength");
+  expectRefused({open, "interactions={default: bonded}", "numerics/constraint/method=merged"},
+                "deck.yaml: numerics/constraint/method: \"merged\" lets nothing slide");
+  expectRefused(
+      {"interactions={default: sliding}", "numerics/constraint/method=nodal", "boundaries/left={type: contact wall}"},
+      "deck.yaml: boundaries/left/type: a contact wall has no nodes");
+}

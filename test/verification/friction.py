@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction against Coulomb's law: a block on an incline slides with g (sin a - mu cos a) or stays; a wall that rubs."""
+from math import cos, radians, sin, sqrt, tan
+
+from harness import check, clean, harmos, run
+
+DECK = "incline/deck.yaml"
+G, QUIET = 10.0, {"output/fields/every_time": 0.0, "output/fields/at_end": False}
+
+
+def incline(angle, coefficient, cells=10, end=0.6, rigid=False, **more):
+    """The deck's block on a plane inclined by `angle` degrees, `cells` cells over the block."""
+    a = radians(angle)
+    down, normal = (cos(a), -sin(a)), (sin(a), cos(a))
+    vec = lambda x, y: f"[{x!r}, {y!r}]"
+    settings = {
+        "mesh/x/cells": round(3.2 * cells), "mesh/y/cells": round(2.4 * cells),
+        "bodies/block/center": vec(0.5 * normal[0], 0.5 * normal[1]), "bodies/block/angle": -float(angle),
+        "bodies/plane/normal": vec(*normal), "interactions/coefficient": coefficient, "run/end_time": end, **QUIET, **more,
+    }
+    if rigid:
+        settings.update({"bodies/block/material": "rock", "bodies/block/motion": "free"})
+    r = harmos(DECK, settings)
+    speed = [(px * down[0] + py * down[1]) / m
+             for px, py, m in zip(r["block.momentum_x"], r["block.momentum_y"], r["block.mass"])]
+    return r, speed
+
+
+def slope_of(r, speed, angle, coefficient):
+    """Mean acceleration down the plane. As long as it slides, friction is mu times the normal force, cycle by cycle; the
+    momentum that a bouncing block still has across the plane tells by how much that force's mean is off m g cos a."""
+    a = radians(angle)
+    rise = (r.last("block.momentum_x") * sin(a) + r.last("block.momentum_y") * cos(a)) / r.last("block.mass")
+    return (speed[-1] - speed[0] + coefficient * rise) / (r["time"][-1] - r["time"][0])
+
+
+def slide(angle, coefficient, bound, **more):
+    a = radians(angle)
+    exact = G * (sin(a) - coefficient * cos(a))
+    r, speed = incline(angle, coefficient, **more)
+    found = slope_of(r, speed, angle, coefficient)
+    print(f"  {angle} degrees, mu {coefficient}, {more}: {found:.4f} m/s^2, exact {exact:.4f}; "
+          f"unconverged {r.summary['unconverged_cycles']}, most iterations {max(r['iterations']):.0f}")
+    check("acceleration, of g", abs(found - exact) / G, bound)
+    check("unconverged cycles", r.summary["unconverged_cycles"], 0.5)
+    check("momentum ledger", r.summary["momentum_error"], 1e-12)
+    check("energy ledger", r.summary["energy_error"], 1e-9)
+    assert r.last("contact_loss") > 0.0
+    clean(r)
+
+
+def test_a_block_above_the_friction_angle_slides_with_the_exact_acceleration():
+    slide(20.0, 0.2, 5e-3)
+    slide(30.0, 0.3, 5e-3)
+
+
+def test_a_rigid_block_does_the_same():
+    slide(20.0, 0.2, 1e-3, rigid=True)
+
+
+def test_both_solvers_give_the_same_slide():
+    loose = {"numerics/constraint/tolerance": 1e-6, "numerics/constraint/max_iterations": 20000}
+    first, gradients = incline(20.0, 0.2, end=0.1, **loose)
+    second, sums = incline(20.0, 0.2, end=0.1, **{"numerics/constraint/solver": "row sums"}, **loose)
+    print(f"  most iterations: conjugate gradients {max(first['iterations']):.0f}, row sums {max(second['iterations']):.0f}")
+    check("difference of the final speeds, of one", abs(gradients[-1] - sums[-1]) / abs(sums[-1]), 1e-4)
+    clean(first, second)
+
+
+def test_a_bond_of_two_bars_holds_below_its_strength_and_breaks_above():
+    rho, c, g, speed = 7800.0, 4600.0, 80.0e9, 10.0
+    tension = 0.5 * rho * sqrt(c * c + 4.0 * g / (3.0 * rho)) * speed  # bars drawn apart: rho c V/2
+    for strength, broken in ((1.1 * tension, 0), (0.9 * tension, 1)):
+        r = harmos("two_bars/deck.yaml", {
+            "bodies/left/velocity": f"[{-speed / 2}, 0.0]", "bodies/right/velocity": f"[{speed / 2}, 0.0]", "mesh/x/cells": 100,
+            "mesh/y": "{from: 0.0, to: 0.025, cells: 1}", "interactions/default": "bonded",
+            "interactions/tensile_strength": strength, "run/end_time": 2.0e-4, **QUIET})
+        assert r.summary["broken_bonds"] == broken
+        late = [px for t, px in zip(r["time"], r["right.momentum_x"]) if t > 1.0e-4]
+        change = abs(late[-1] - late[0]) / r.first("right.momentum_x")
+        print(f"  strength {strength / tension:.1f} of the tension: momentum of a bar changes by {change:.2e} in the second half")
+        assert change > 0.2 if broken == 0 else change < 1e-12
+        clean(r)
+
+
+def test_a_block_below_the_friction_angle_stays():
+    angle, coefficient = 20.0, 0.6
+    assert coefficient > tan(radians(angle))
+    r, speed = incline(angle, coefficient)
+    free = G * sin(radians(angle)) * 0.6
+    way = sum(s * dt for s, dt in zip(speed, r["dt"]))
+    check("mean speed down the plane, of what it would have without friction", abs(way / 0.6) / free, 2e-2)
+    print(f"  way {way:.2e} m, without friction {0.5 * free * 0.6:.2e} m")
+    clean(r)
+
+
+if __name__ == "__main__":
+    run(globals())

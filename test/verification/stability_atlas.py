@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The stability atlas: where each way to constrain the interfaces fails.
+
+stability_atlas.py [--quick] [--jobs N] [--output FOLDER]: writes stability-atlas.md and stability-atlas.png.
+--quick: two cuts, one angle, small contrasts, and nothing written but into a temporary folder.
+"""
+import argparse
+import concurrent.futures
+import pathlib
+import tempfile
+from math import exp, sqrt
+
+from harness import EXAMPLE, ROOT, clean, harmos, read_columns
+from sliding_block import SQUEEZE, momentum_error, settings as sliding
+
+CONSTRAINT = "numerics/constraint"
+METHODS = {
+    "multipliers": {},
+    "two Gauss points": {f"{CONSTRAINT}/placement": "gauss points"},
+    "segment ends": {f"{CONSTRAINT}/placement": "segment ends"},
+    "row-sum iteration": {f"{CONSTRAINT}/solver": "row sums"},
+    "penalty 0.3": {f"{CONSTRAINT}/method": "penalty", f"{CONSTRAINT}/penalty": 0.3},
+    "penalty 1": {f"{CONSTRAINT}/method": "penalty", f"{CONSTRAINT}/penalty": 1.0},
+    "penalty 3": {f"{CONSTRAINT}/method": "penalty", f"{CONSTRAINT}/penalty": 3.0},
+    "Nitsche 1": {f"{CONSTRAINT}/method": "nitsche", f"{CONSTRAINT}/penalty": 1.0},
+    "nodal": {f"{CONSTRAINT}/method": "nodal"},
+    "merged velocity": {f"{CONSTRAINT}/method": "merged"},
+}
+CUTS = [0.5, 1e-2, 1e-6, 1e-10]
+COURANTS = [0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95]
+CONTRASTS = [1.0, 1e3, 1e6]
+QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": "false"}
+INTRODUCTION = """# Stability atlas
+
+Where each way to constrain the interfaces fails. Written by `test/verification/stability_atlas.py` (`ctest -L study -R stability_atlas` checks that it runs); the methods are the deck's `numerics/constraint`.
+
+![atlas](stability-atlas.png)
+
+"""
+
+
+def stays_bounded(method, cut, courant):
+    """Two blocks under stored elastic energy, without any viscosity: no kinetic energy beyond what was stored."""
+    x = 8.0 + cut
+    r = harmos(ROOT / "test/verification/decks/sliver.yaml", {
+        "bodies/left/center": f"[{x / 2!r}, 2.0]", "bodies/left/size": f"[{x!r}, 4.0]",
+        "bodies/right/center": f"[{(16.0 + x) / 2!r}, 2.0]", "bodies/right/size": f"[{16.0 - x!r}, 4.0]",
+        "numerics/linear_viscosity": 0.0, "numerics/quadratic_viscosity": 0.0, "numerics/hourglass_viscosity": 0.0,
+        "numerics/remap/merge_below": 0.0, "numerics/courant": courant, "run/max_cycles": 400,
+        "output/history/every_cycles": 5, **METHODS[method]}, expect=None)
+    stored = 0.5 * 0.001**2 * 32.0
+    bounded = r.status == 0 and max(r["kinetic_energy"]) <= 1.05 * stored
+    clean(r)
+    return bounded
+
+
+def largest_courant(method, cut):
+    """By bisection of the list; zero where none is stable."""
+    low, high = 0, len(COURANTS)
+    while low < high:
+        middle = (low + high) // 2
+        if stays_bounded(method, cut, COURANTS[middle]):
+            low = middle + 1
+        else:
+            high = middle
+    return COURANTS[low - 1] if low > 0 else 0.0
+
+
+def block(method, angle, pressure):
+    """Sliding block: momentum error, deviation of the contact pressure, overlap in cells, iterations, energy drift."""
+    r = harmos("sliding_block/deck.yaml", {**sliding(angle, (0.31, 0.17), 8, pressure, slide=0.5), "run/max_cycles": 1500, **QUIET, **METHODS[method]}, expect=None)
+    if r.status != 0 or r.last("time") < 0.999 * 0.5 / 100.0:  # failed, or its speeds made the step collapse
+        clean(r)
+        return None
+    result = {"momentum": momentum_error(r, angle), "overlap": r.last("overlap_volume") * 64.0,
+              "iterations": sum(r["iterations"]) / len(r["iterations"]),
+              "most iterations": max(r["iterations"]), "unconverged": r.summary["unconverged_cycles"]}
+    first = r.first("kinetic_energy") + r.first("internal_energy") + r.first("contact_loss") + r.first("remap_loss")
+    result["energy"] = abs(r.last("contact_loss")) / first
+    if pressure:
+        c = read_columns(r.directory / "contact.csv")
+        # While the block is squeezed and at rest across the platens; the exact pressure of contact is uniform there.
+        late = [(d, n, a, dt) for t, d, n, a, dt in zip(c["time"], c["deviation"], c["normal_impulse"], c["area"], spread(c, r))
+                if t < 0.2 * r.last("time") and a > 0.0]
+        result["deviation"] = sum(d for d, *_ in late) / sum(n / (a * dt) for _, n, a, dt in late) if late else float("nan")
+    clean(r)
+    return result
+
+
+def spread(contact, r):
+    """dt of each line of contact.csv."""
+    step = dict(zip(r["cycle"], r["dt"]))
+    return [step[cycle] for cycle in contact["cycle"]]
+
+
+def bars(method, density, stiffness):
+    """Error of the contact stress of two bars, of which the right one is denser and stiffer by the given factors."""
+    rho, c, speed, height, cells = 1000.0, 1000.0, 1.0, 0.05, 20
+    rho2, c2 = rho * density, c * sqrt(stiffness / density)
+    end = 0.8 / c if c2 <= c else 4.0 / cells / c  # stiff: as far as the contact is resolved
+    r = harmos("two_bars/deck.yaml", {
+        "mesh/x": f"{{from: -1.25, to: 1.25, cells: {round(2.5 * cells)}}}", "mesh/y": f"{{from: 0.0, to: {height}, cells: 1}}",
+        "materials/steel": f"{{eos: stiffened, density: {rho}, sound_speed: {c}}}",
+        "materials/other": f"{{eos: stiffened, density: {rho2}, sound_speed: {c2}}}",
+        "bodies/right/material": "other", "bodies/left/center": "[-0.485, 0.0]", "bodies/right/center": "[0.515, 0.0]",
+        "bodies/left/velocity": f"[{speed / 2}, 0.0]", "bodies/right/velocity": f"[{-speed / 2}, 0.0]",
+        "run/end_time": end, "run/max_cycles": 12000, **QUIET, **METHODS[method]}, expect=None)
+    z1, z2 = rho * c, rho2 * c2
+    exact = speed * z1 * z2 / (z1 + z2)
+    if c2 > 10.0 * c:  # by then the stiff bar moves as a mass on the soft one: Z1 V exp(- Z1 t/(rho2 L)), over the second half
+        rate = z1 / rho2 * end
+        exact = speed * z1 * (exp(-0.5 * rate) - exp(-rate)) / (0.5 * rate)
+    error = float("inf")
+    if r.status == 0:
+        c_log = read_columns(r.directory / "contact.csv")
+        if c_log["time"]:
+            half = 0.5 * r.last("time")
+            impulse = sum(abs(f) * dt for f, t, dt in zip(c_log["force_x"], c_log["time"], spread(c_log, r)) if t > half)
+            error = abs(impulse / (sum(dt for t, dt in zip(r["time"], r["dt"]) if t > half) * height) - exact) / exact
+    clean(r)
+    return error
+
+
+def measure(quick, jobs):
+    cuts = [0.5, 1e-10] if quick else CUTS
+    contrasts = [1.0, 1e2] if quick else CONTRASTS
+    angles = [15.0] if quick else [0.0, 30.0]
+    def one(method):
+        f = {}
+        for cut in cuts:
+            f["stable Courant, cut " + f"{cut:.0e}"] = largest_courant(method, cut)
+        for name, pressure in (("unloaded", 0.0), ("squeezed", SQUEEZE)):
+            runs = [block(method, angle, pressure) for angle in angles]
+            keys = ["momentum", "overlap", "iterations", "energy"] + (["deviation"] if pressure else [])
+            for key in keys:
+                f[f"{name} block, {key}"] = max((r[key] if r else float("inf")) for r in runs)
+        for contrast in contrasts:
+            f[f"stress error, density {contrast:.0e}"] = bars(method, contrast, 1.0)
+        for contrast in contrasts[1:]:
+            f[f"stress error, stiffness {contrast:.0e}"] = bars(method, 1.0, contrast)
+        print(method, {k: f"{v:.2e}" for k, v in f.items()}, flush=True)
+        return f
+
+    methods = ["multipliers", "penalty 3"] if quick else list(METHODS)
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        return dict(zip(methods, pool.map(one, methods)))
+
+
+GOOD_AND_BAD = {"stable": (0.9, 0.3), "momentum": (3e-3, 0.3), "overlap": (0.05, 5.0), "iterations": (50.0, 1000.0), "energy": (1e-3, 0.3),
+                "deviation": (0.1, 1.0), "stress": (0.03, 0.5)}
+
+
+def badness(column, value):
+    """0 good .. 1 failed, on a logarithmic scale between two marks."""
+    from math import isfinite, log
+    if not isfinite(value):
+        return 1.0
+    good, bad = next(v for k, v in GOOD_AND_BAD.items() if k in column)
+    if value <= 0.0:
+        return 1.0 if good > bad else 0.0
+    return min(1.0, max(0.0, log(value / good) / log(bad / good)))
+
+
+def write(found, folder):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    columns = list(next(iter(found.values())))
+    methods = list(found)
+    table = ["| | " + " | ".join(methods) + " |", "| --- " * (len(methods) + 1) + "|"]
+    for column in columns:
+        table.append(f"| {column} | " + " | ".join(f"{found[m][column]:.3g}" for m in methods) + " |")
+    (folder / "stability-atlas.md").write_text(INTRODUCTION + EXPLANATION + "\n".join(table) + "\n")
+    colour = [[badness(c, found[m][c]) for m in methods] for c in columns]
+    figure, axes = plt.subplots(figsize=(1.2 * len(methods) + 3.5, 0.3 * len(columns) + 1.6))
+    axes.imshow(colour, cmap="RdYlGn_r", vmin=0.0, vmax=1.0, aspect="auto")
+    axes.set_xticks(range(len(methods)), methods, rotation=25, ha="left")
+    axes.xaxis.tick_top()
+    axes.set_yticks(range(len(columns)), columns)
+    for i, column in enumerate(columns):
+        for j, method in enumerate(methods):
+            axes.text(j, i, f"{found[method][column]:.2g}", ha="center", va="center", fontsize=8)
+    figure.tight_layout()
+    figure.savefig(folder / "stability-atlas.png", dpi=110)
+
+
+EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 at which two blocks under stored elastic energy, without any viscosity, never hold more kinetic energy than was stored, over 400 cycles; the interface
+  lies the given part of a cell beyond a cell face (`decks/sliver.yaml`). The material alone is stable to 0.97. 0: at none of them.
+- **block**: `example/sliding_block`, 8 cells over the block, half a length of slip, the worse of the angles 0 and 30 degrees: change of the momentum along the platens over m V; overlap of moved regions, summed over the run, in cells; mean iterations a cycle;
+  energy lost by contact over the energy at the start; root mean square deviation of the segments' tractions from their mean over that mean, in the first fifth of the run (exact: 0).
+- **stress error**: of the contact stress of two bars, 20 cells each, of which one is denser or stiffer by the factor (exact: V Z1 Z2/(Z1 + Z2); much stiffer: Z1 V exp(-Z1 t/(rho2 L))).
+
+Colours: green good, red failed, on a logarithmic scale between marks for each kind of number. `inf`: the run failed, or its velocities grew until it stood still.
+
+"""
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--output", default=str(ROOT / "results/stability_atlas"))
+    parser.add_argument("--jobs", type=int, default=2, help="methods at a time")
+    arguments = parser.parse_args()
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="harmos-atlas-") if arguments.quick else arguments.output)
+    folder.mkdir(parents=True, exist_ok=True)
+    write(measure(arguments.quick, arguments.jobs), folder)
+    print("written to", folder)
