@@ -66,7 +66,7 @@ struct DofNodeBuilder
   {
     MaterialSet set = 0;
     for (int i = node_cell.offset(node); i < node_cell.offset(node + 1); ++i)
-      set |= cell_set(node_cell.item(i) / 4);
+      set |= cell_set(node_cell.item(i) >> 2);
     return set;
   }
 

@@ -59,9 +59,10 @@ def test_a_rigid_block_does_the_same():
 
 
 def test_both_solvers_give_the_same_slide():
-    loose = {"numerics/constraint/tolerance": 1e-6, "numerics/constraint/max_iterations": 20000}
-    first, gradients = incline(20.0, 0.2, end=0.1, **loose)
-    second, sums = incline(20.0, 0.2, end=0.1, **{"numerics/constraint/solver": "row sums"}, **loose)
+    # Short: a block that hops on its corners makes much of small differences.
+    tight = {"numerics/constraint/tolerance": 1e-8, "numerics/constraint/max_iterations": 40000}
+    first, gradients = incline(20.0, 0.2, end=0.02, **tight)
+    second, sums = incline(20.0, 0.2, end=0.02, **{"numerics/constraint/solver": "row sums"}, **tight)
     print(f"  most iterations: conjugate gradients {max(first['iterations']):.0f}, row sums {max(second['iterations']):.0f}")
     check("difference of the final speeds, of one", abs(gradients[-1] - sums[-1]) / abs(sums[-1]), 1e-4)
     clean(first, second)

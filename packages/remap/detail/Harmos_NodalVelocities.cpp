@@ -27,7 +27,7 @@ struct NodalVelocityFunctor
   {
     for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
     {
-      int const index = classes.interface_index(in.mesh.node_cell.item(j) / 4);
+      int const index = classes.interface_index(in.mesh.node_cell.item(j) >> 2);
       if (index >= 0 && acceptors.verbatim(index) == 0)
         return true;
     }
@@ -41,8 +41,8 @@ struct NodalVelocityFunctor
     momentum = {0.0, 0.0};
     for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
     {
-      int const cell = in.mesh.node_cell.item(j) / 4;
-      int const corner = in.mesh.node_cell.item(j) % 4;
+      int const cell = in.mesh.node_cell.item(j) >> 2;
+      int const corner = in.mesh.node_cell.item(j) & 3;
       bool const interface = classes.interface_index(cell) >= 0;
       for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
       {

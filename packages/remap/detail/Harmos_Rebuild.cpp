@@ -39,16 +39,21 @@ void buildRows(Input const &in, Classes const &classes, Acceptors const &accepto
 {
   int const cells = in.mesh.num_cells;
   View<int *> const offset = scratch<int *>("pairOffset", cells + 1);
-  Kokkos::parallel_for(
-      "Harmos::remap::countPairs", RangePolicy(0, cells), KOKKOS_LAMBDA(int cell) {
+  Kokkos::parallel_scan(
+      "Harmos::remap::countPairs", RangePolicy(0, cells + 1),
+      KOKKOS_LAMBDA(int cell, int &sum, bool last) {
+        if (last)
+          offset(cell) = sum;
+        if (cell == cells)
+          return;
         int const index = classes.interface_index(cell);
-        int count = index < 0 ? in.pairs.offset(cell + 1) - in.pairs.offset(cell) : 0;
-        if (index >= 0)
+        if (index < 0)
+          sum += in.pairs.offset(cell + 1) - in.pairs.offset(cell);
+        else
           for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
-            count += acceptors.merge_to(c) < 0 ? 1 : 0;
-        offset(cell) = count;
-      });
-  pairs.num_pairs = exclusiveScan(offset, cells);
+            sum += acceptors.merge_to(c) < 0 ? 1 : 0;
+      },
+      pairs.num_pairs);
   View<int *> const material = scratch<int *>("pairMaterial", pairs.num_pairs);
   View<int *> const pair_cell = scratch<int *>("pairCell", pairs.num_pairs);
   Kokkos::parallel_for(

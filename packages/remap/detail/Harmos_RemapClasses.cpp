@@ -99,14 +99,14 @@ struct Classifier
     bool const any_open = classes.open.extent(0) > 0;
     int const begin = in.mesh.node_cell.offset(node);
     int const end = in.mesh.node_cell.offset(node + 1);
-    int const first = begin < end ? classes.pure_material(in.mesh.node_cell.item(begin) / 4) : -2;
+    int const first = begin < end ? classes.pure_material(in.mesh.node_cell.item(begin) >> 2) : -2;
     bool uniform = first >= 0 && in.options.swept_faces;
     bool deformable = false;
     int open = 0;
     for (int j = begin; j < end; ++j)
     {
-      int const cell = in.mesh.node_cell.item(j) / 4;
-      int const corner = in.mesh.node_cell.item(j) % 4;
+      int const cell = in.mesh.node_cell.item(j) >> 2;
+      int const corner = in.mesh.node_cell.item(j) & 3;
       int const code = classes.pure_material(cell);
       uniform = uniform && code == first;
       deformable = deformable || code >= -1;
@@ -142,7 +142,7 @@ struct Classifier
     bool final = true, swept = false;
     for (int j = in.mesh.node_cell.offset(node); j < in.mesh.node_cell.offset(node + 1); ++j)
     {
-      int const flags = classes.flags(in.mesh.node_cell.item(j) / 4);
+      int const flags = classes.flags(in.mesh.node_cell.item(j) >> 2);
       final = final && (flags & InterfaceCellBit) == 0;
       swept = swept || (flags & all_swept_corners) != 0;
     }

@@ -69,22 +69,6 @@ void grow(T &view, char const *label, std::size_t extent)
   view = scratch<typename T::data_type>(label, extent + extent / 4 + 1);
 }
 
-/// Counts -> offsets, in place: offset(i), i < rows, counts row i on entry; offset(rows) is set. Returns the total.
-inline int exclusiveScan(View<int *> const &offset, int rows)
-{
-  int total = 0;
-  Kokkos::parallel_scan(
-      "Harmos::remap::exclusiveScan", RangePolicy(0, rows + 1),
-      KOKKOS_LAMBDA(int i, int &sum, bool last) {
-        int const count = i < rows ? offset(i) : 0;
-        if (last)
-          offset(i) = sum;
-        sum += count;
-      },
-      total);
-  return total;
-}
-
 /// Area and area centroid of a quadrilateral.
 struct AreaCentroid
 {

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Shocks with exact solutions: Sod's tube, Noh's problem, Sedov's cylindrical blast, plate impact with strength.
+
+Errors are volume-weighted L1 means of the cells' density against the exact density at the cell's centre; orders are
+from two resolutions.
+"""
+from math import log2, pi, sqrt
+
+import h5py
+import numpy
+
+from harness import check, clean, harmos, read_columns, run
+from hugoniot import elastic, shocked
+
+QUIET = {"output/fields/every_time": 0.0}
+
+
+def last_fields(r):
+    """Cell centres (n, 2), areas, density and pressure of the run's last output."""
+    with h5py.File(sorted(r.directory.glob("fields_*.h5"))[-1]) as file:
+        x = file["/nodes/position"][:][file["/cells/connectivity"][:]]
+        density, pressure = file["/cells/density"][:], file["/cells/pressure"][:]
+    d1, d2 = x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]
+    return x.mean(axis=1), 0.5 * (d1[:, 0] * d2[:, 1] - d1[:, 1] * d2[:, 0]), density, pressure
+
+
+def l1(value, exact, weight):
+    return float((abs(value - exact) * weight).sum() / weight.sum())
+
+
+def sod_density(x, t, gamma=1.4):
+    """Exact density for (rho, p) = (1, 1) and (0.125, 0.1) at rest, diaphragm at 0.5 (Toro, Riemann Solvers, ch. 4)."""
+    rl, pl, rr, pr = 1.0, 1.0, 0.125, 0.1
+    cl, cr = sqrt(gamma * pl / rl), sqrt(gamma * pr / rr)
+
+    def excess(p):
+        wave = 2.0 * cl / (gamma - 1.0) * ((p / pl) ** ((gamma - 1.0) / (2.0 * gamma)) - 1.0)
+        shock = (p - pr) * sqrt(2.0 / ((gamma + 1.0) * rr) / (p + (gamma - 1.0) / (gamma + 1.0) * pr))
+        return wave + shock
+
+    low, high = pr, pl
+    for _ in range(100):
+        p = 0.5 * (low + high)
+        low, high = (p, high) if excess(p) < 0.0 else (low, p)
+    u = -2.0 * cl / (gamma - 1.0) * ((p / pl) ** ((gamma - 1.0) / (2.0 * gamma)) - 1.0)
+    g = (gamma - 1.0) / (gamma + 1.0)
+    behind = rr * (p / pr + g) / (g * p / pr + 1.0)
+    shock = cr * sqrt((gamma + 1.0) / (2.0 * gamma) * p / pr + (gamma - 1.0) / (2.0 * gamma))
+    contact = rl * (p / pl) ** (1.0 / gamma)
+    s = (x - 0.5) / t
+    fan = rl * (2.0 / (gamma + 1.0) - g / cl * s) ** (2.0 / (gamma - 1.0))
+    tail = u - cl * (p / pl) ** ((gamma - 1.0) / (2.0 * gamma))
+    return numpy.select([s < -cl, s < tail, s < u, s < shock], [rl, fan, contact, behind], rr)
+
+
+def sod(cells, **more):
+    r = harmos("shocks/sod.yaml", {"mesh/x/cells": cells, "mesh/y/to": 1.0 / cells, **QUIET, **more})
+    x, area, density, _ = last_fields(r)
+    error = l1(density, sod_density(x[:, 0], 0.2), area)
+    check(f"energy ledger, {cells} cells", r.summary["energy_error"], 1e-10)
+    check(f"mass, {cells} cells", r.summary["mass_error"], 1e-12)
+    return r, error
+
+
+def test_sod_converges_at_first_order_with_two_fields_and_with_one():
+    for name, more in (("two fields", {}), ("one field", {"bodies/right/join": "left"})):
+        runs = [sod(cells, **more) for cells in (100, 200, 400)]
+        errors = [error for _, error in runs]
+        orders = [log2(a / b) for a, b in zip(errors, errors[1:])]
+        print(f"  {name}: L1 of the density {errors}, orders {orders}, "
+              f"work of the contact {runs[-1][0].last('contact_loss'):.2e}")
+        check(f"{name}: L1 of the density at 200 cells", errors[1], 6e-3)
+        check(f"{name}: one less the order", 1.0 - orders[-1], 0.35)
+        clean(*(r for r, _ in runs))
+
+
+def test_noh_planar_shock_doubles_twice():
+    def planar(cells):
+        r = harmos("shocks/noh_planar.yaml", {"mesh/x/cells": cells, "mesh/y/to": 1.0 / cells, **QUIET})
+        x, area, density, _ = last_fields(r)
+        near = x[:, 0] < 0.35
+        error = l1(density[near], numpy.where(x[:, 0] < 0.2, 4.0, 1.0)[near], area[near])
+        plateau = (x[:, 0] > 0.05) & (x[:, 0] < 0.16)
+        print(f"  {cells} cells: L1 {error:.4f}, plateau {density[plateau].mean():.4f}, at the wall {density[0]:.3f}")
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        clean(r)
+        return error, density[plateau].mean()
+
+    coarse, fine = planar(100), planar(200)
+    check("plateau of 4", abs(fine[1] / 4.0 - 1.0), 5e-3)
+    check("one less the order", 1.0 - log2(coarse[0] / fine[0]), 0.2)
+
+
+def sedov_profile(gamma=1.4):
+    """lambda = r / R, density over the one behind the shock, energy E of R = 1, t = 1, rho0 = 1: cylindrical.
+
+    Kamm, LA-UR-00-6055 (2000): the standard case with j = 2, omega = 0.
+    """
+    j, k = 2.0, 4.0
+    a0, a2 = 2.0 / k, -(gamma - 1.0) / (2.0 * (gamma - 1.0) + j)
+    a1 = k * gamma / (2.0 + j * (gamma - 1.0)) * (2.0 * j * (2.0 - gamma) / (gamma * k * k) - a2)
+    a3, a4, a5 = j / (2.0 * (gamma - 1.0) + j), k * a1 / (2.0 - gamma), -2.0 / (2.0 - gamma)
+    b, d = (gamma + 1.0) / (gamma - 1.0), k * (gamma + 1.0) / (k * (gamma + 1.0) - 2.0 * (2.0 + j * (gamma - 1.0)))
+    v0, v2 = 2.0 / (k * gamma), 4.0 / (k * (gamma + 1.0))
+    v = v0 + (v2 - v0) * numpy.linspace(0.0, 1.0, 20001)[1:] ** 4
+    x1, x2 = 0.25 * k * (gamma + 1.0) * v, b * (0.5 * k * gamma * v - 1.0)
+    x3, x4 = d * (1.0 - 0.5 * (2.0 + j * (gamma - 1.0)) * v), b * (1.0 - 0.5 * k * v)
+    radius = x1 ** -a0 * x2 ** -a2 * x3 ** -a1
+    density = x2 ** a3 * x3 ** a4 * x4 ** a5
+    pressure = x1 ** (a0 * j) * x3 ** (a4 - 2.0 * a1) * x4 ** (1.0 + a5)
+    speed = 0.5  # dR / dt of R = sqrt(t)
+    u = 2.0 * speed / (gamma + 1.0) * x1 * radius
+    energy = 0.5 * b * density * u * u + 2.0 * speed ** 2 / (gamma + 1.0) * pressure / (gamma - 1.0)
+    middle = 0.5 * ((energy * radius)[1:] + (energy * radius)[:-1])
+    return radius, density, 2.0 * pi * float((middle * numpy.diff(radius)).sum())
+
+
+def test_sedov_blast_reaches_one_metre_in_a_second():
+    radius, shape, energy = sedov_profile()
+    check("energy of the deck", abs(energy / 0.984074 - 1.0), 1e-5)
+    errors = []
+    for cells in (60, 120):
+        r = harmos("shocks/sedov.yaml", {"mesh/x/cells": cells, "mesh/y/cells": cells, **QUIET})
+        x, area, density, _ = last_fields(r)
+        rho, distance = density, numpy.hypot(x[:, 0], x[:, 1])
+        exact = numpy.where(distance < 1.0, 6.0 * numpy.interp(distance, radius, shape), 1.0)
+        inside = distance < 1.15
+        errors.append(l1(rho[inside], exact[inside], area[inside]))
+        peaks = [distance[s][rho[s].argmax()] for s in (abs(x[:, 0] - x[:, 1]) < 1e-9, x[:, 1] < 1.3 / cells)]
+        print(f"  {cells} cells: L1 {errors[-1]:.4f}, largest density {rho.max():.2f} (exact 6), peak on the diagonal at "
+              f"{peaks[0]:.4f}, on the axis at {peaks[1]:.4f}")
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        clean(r)
+    for peak in peaks:
+        check("place of the peak, cells off", 100.0 * abs(peak - 1.0), 2.0)
+    check("L1 of 120 over 60 cells", errors[1] / errors[0], 0.85)
+
+
+def test_plate_impact_with_strength_gives_the_two_wave_state():
+    law = {"eos": "mie-gruneisen", "density": 2703.0, "sound_speed": 5240.0, "slope": 1.40, "gruneisen": 1.97,
+           "shear_modulus": 27.6e9}
+    yield_stress, u = 0.29e9, 200.0
+    hel = elastic(law, yield_stress)
+    (stress, _, _, _), _ = shocked(law, u, 2.0 / 3.0 * yield_stress, hel)
+    (hydrodynamic, _, _, _), _ = shocked(law, u)
+    r = harmos("shocks/plate_impact.yaml", QUIET)
+    probes = read_columns(r.directory / "probes.csv")
+    stations = {}
+    for name in ("near", "far"):
+        mine = [i for i, n in enumerate(probes["name"]) if n == name]
+        time = numpy.array([probes["time"][i] for i in mine])
+        stations[name] = time, numpy.array([probes["pressure"][i] + 2.0 / 3.0 * probes["von_mises"][i] for i in mine])
+
+    def arrival(name, level):
+        time, value = stations[name]
+        i = int((value >= level).argmax())
+        return time[i - 1] + (level - value[i - 1]) / (value[i] - value[i - 1]) * (time[i] - time[i - 1])
+
+    # The mesh is at rest with the plates' mean; each plate comes in at u.
+    precursor = 4.0e-3 / (arrival("far", 0.5 * hel[0]) - arrival("near", 0.5 * hel[0])) + u
+    first, last = arrival("far", 0.5 * hel[0]), arrival("far", 0.5 * (hel[0] + stress))
+    time, value = stations["far"]
+    foot = value[(time > first + 0.3 * (last - first)) & (time < first + 0.6 * (last - first))].mean()
+    time, value = stations["near"]
+    plateau = value[(time > arrival("near", 0.5 * (hel[0] + stress)) + 1.5e-7)].mean()
+    exact_speed = hel[0] / (law["density"] * hel[2])
+    print(f"  plateau {plateau / 1e9:.4f} GPa, exact {stress / 1e9:.4f} (without strength {hydrodynamic / 1e9:.4f}); precursor "
+          f"{foot / 1e9:.4f} GPa, exact {hel[0] / 1e9:.4f}, at {precursor:.0f} m/s, exact {exact_speed:.0f}")
+    check("plateau", abs(plateau / stress - 1.0), 5e-3)
+    check("stress of the precursor", abs(foot / hel[0] - 1.0), 0.01)
+    check("speed of the precursor", abs(precursor / exact_speed - 1.0), 0.01)
+    check("energy ledger", r.summary["energy_error"], 1e-10)
+    clean(r)
+
+
+if __name__ == "__main__":
+    run(globals())
