@@ -131,7 +131,7 @@ KOKKOS_INLINE_FUNCTION void sampleAt(PointField const &field, int cell, int mate
   double const xx = record(pair, DeviatorXX), yy = record(pair, DeviatorYY), xy = record(pair, DeviatorXY);
   Vector2 const v = velocityAt(field, field.state.velocity, pair, point);
   out(i, ColumnMaterial) = 1.0 + field.pairs.material(pair);
-  out(i, ColumnDensity) = record(pair, Mass) / (record(pair, VolumeFraction) * field.mesh.cell_area(cell));
+  out(i, ColumnDensity) = record(pair, Mass) / (record(pair, VolumeFraction) * field.mesh.cell_volume(cell));
   out(i, ColumnPressure) =
       law.rigid_body >= 0 ? 0.0
                           : equationOfState(law, record(pair, SpecificVolume), record(pair, InternalEnergy)).pressure;

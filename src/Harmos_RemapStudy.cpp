@@ -91,7 +91,7 @@ Study makeStudy(Mesh const &mesh, RemapDeck const &deck)
   s.mesh = mesh;
   s.next = mesh;
   s.next.node_position = View<double *[2]>("Harmos::nextPosition", mesh.num_nodes);
-  s.next.cell_area = View<double *>("Harmos::nextArea", mesh.num_cells);
+  separateGeometry(s.next);
   s.reference = View<double *[2]>("Harmos::reference", mesh.num_nodes);
   Kokkos::deep_copy(s.reference, mesh.node_position);
   s.conditions = buildBoundaryConditions(mesh, View<Boundary *>("boundary", num_boundary_sides)); // slip walls

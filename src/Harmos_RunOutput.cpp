@@ -51,14 +51,14 @@ std::vector<std::string> materialNames(Deck const &deck)
   return names;
 }
 
-LedgerErrors ledgerErrors(Ledger const &l, Totals const &t)
+LedgerErrors ledgerErrors(Geometry geometry, Ledger const &l, Totals const &t)
 {
   LedgerErrors e;
   e.mass = std::fabs(t.mass + l.outflow_mass - l.mass0) / std::max(l.mass0, 1e-300);
   double const px = t.momentum_x - l.momentum0_x - l.external_impulse_x + l.outflow_momentum_x;
   double const py = t.momentum_y - l.momentum0_y - l.external_impulse_y + l.outflow_momentum_y;
   double const scale = std::max(t.speed_momentum, l.largest_speed_momentum);
-  e.momentum = scale > 0.0 ? std::hypot(px, py) / scale : 0.0;
+  e.momentum = scale > 0.0 ? (geometry == Geometry::Planar ? std::hypot(px, py) : std::fabs(py)) / scale : 0.0;
   e.energy = t.kinetic_energy + t.internal_energy - l.external_work + l.contact_loss + l.remap_loss + l.outflow_energy -
              l.energy0;
   return e;
@@ -143,7 +143,7 @@ void RunOutput::write(Scene const &scene, CycleState const &state, CycleReport c
 void RunOutput::writeHistory(Scene const &scene, CycleState const &state, CycleReport const &report, Ledger &ledger)
 {
   Totals const totals = computeTotals(scene, state, static_cast<int>(names_.size()), true);
-  LedgerErrors const errors = ledgerErrors(ledger, totals);
+  LedgerErrors const errors = ledgerErrors(scene.mesh.geometry, ledger, totals);
   ledger.noteErrors(errors.mass, errors.momentum, errors.energy, totals.kinetic_energy + totals.internal_energy,
                     totals.speed_momentum);
   ledger.noteAngularMomentum(totals.angular_momentum, totals.moment);

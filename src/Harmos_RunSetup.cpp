@@ -91,7 +91,9 @@ Mesh makeLocalMesh(Run &run)
   if (ranks == 1)
   {
     run.exchange = std::make_unique<Exchange>();
-    return buildMesh(run.whole.mesh);
+    Mesh mesh = buildMesh(run.whole.mesh);
+    setGeometry(mesh, run.deck.geometry);
+    return mesh;
   }
   if (run.deck.kinematics == Kinematics::Lagrangian)
     throw DeckError("kinematics: lagrangian runs on one rank only (" + std::to_string(ranks) +
@@ -100,8 +102,8 @@ Mesh makeLocalMesh(Run &run)
     throw DeckError("mesh: " + std::to_string(run.whole.mesh.cell.size()) + " cells cannot be shared by " +
                     std::to_string(ranks) + " ranks");
   checkReach(run.deck);
-  Mesh const mesh =
-      buildLocalMesh(run.whole.mesh, partitionCells(run.whole.mesh, ranks), run.comm->getRank(), halo_layers);
+  Mesh mesh = buildLocalMesh(run.whole.mesh, partitionCells(run.whole.mesh, ranks), run.comm->getRank(), halo_layers);
+  setGeometry(mesh, run.deck.geometry);
   run.exchange = std::make_unique<TpetraExchange>(run.comm, mesh);
   return mesh;
 }

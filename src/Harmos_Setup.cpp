@@ -53,20 +53,22 @@ MappedBlock wallBlock(Deck const &deck, int side)
 {
   double const x0 = deck.x.from, x1 = deck.x.to, y0 = deck.y.from, y1 = deck.y.to;
   double const dx = (x1 - x0) / deck.x.cells, dy = (y1 - y0) / deck.y.cells;
-  int const nx = deck.x.cells, ny = deck.y.cells;
+  // no wall reaches beyond the axis
+  double const low = deck.geometry == Geometry::Axisymmetric ? std::max(0.0, x0 - dx) : x0 - dx;
+  int const nx = deck.x.cells + (low < x0 ? 2 : 1), ny = deck.y.cells;
   auto const box = [](double xa, double ya, double xb, double yb, int cx, int cy) {
     return MappedBlock{{Corner{xa, ya}, Corner{xb, ya}, Corner{xb, yb}, Corner{xa, yb}}, {cx, cy}};
   };
   switch (side)
   {
   case Left:
-    return box(x0 - dx, y0 - dy, x0, y1 + dy, 1, ny + 2);
+    return box(low, y0 - dy, x0, y1 + dy, 1, ny + 2);
   case Right:
     return box(x1, y0 - dy, x1 + dx, y1 + dy, 1, ny + 2);
   case Bottom:
-    return box(x0 - dx, y0 - dy, x1 + dx, y0, nx + 2, 1);
+    return box(low, y0 - dy, x1 + dx, y0, nx, 1);
   default:
-    return box(x0 - dx, y1, x1 + dx, y1 + dy, nx + 2, 1);
+    return box(low, y1, x1 + dx, y1 + dy, nx, 1);
   }
 }
 
@@ -130,7 +132,8 @@ RigidBody rigidBody(Deck const &deck, BodySpec const &spec, Shape const &shape)
   body.motion = spec.motion;
   body.centre = shape.centroid();
   double const density = deck.laws[spec.law].law.density0;
-  body.mass = density * shape.area();
+  body.mass = density * shape.volume(deck.geometry);
+  body.axial = deck.geometry == Geometry::Axisymmetric;
   body.inertia = density * shape.inertia();
   body.angular_velocity = spec.angular_velocity;
   body.velocity = spec.velocity + spec.angular_velocity * perpendicular(body.centre - spec.shape.reference());
@@ -176,7 +179,7 @@ void fillBlocks(Deck const &deck, DeckMesh const &whole, Scene const &scene, Cyc
   auto material = Kokkos::create_mirror_view(s.pairs.material);
   auto cell = Kokkos::create_mirror_view(s.pairs.cell);
   auto record = Kokkos::create_mirror_view(s.state.record);
-  auto const area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_area);
+  auto const volume = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_volume);
   auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_global);
   int const num_bodies = static_cast<int>(deck.bodies.size());
   for (int c = 0; c < n; ++c)
@@ -186,7 +189,7 @@ void fillBlocks(Deck const &deck, DeckMesh const &whole, Scene const &scene, Cyc
     double const density = wall ? 1.0 : deck.bodies[block].density;
     offset(c) = cell(c) = c;
     material(c) = wall ? static_cast<int>(deck.fields.size()) + block - num_bodies : deck.bodies[block].field;
-    record(c, Mass) = density * area(c);
+    record(c, Mass) = density * volume(c);
     record(c, VolumeFraction) = 1.0;
     record(c, SpecificVolume) = 1.0 / density;
     record(c, InternalEnergy) = wall ? 0.0 : deck.bodies[block].internal_energy;

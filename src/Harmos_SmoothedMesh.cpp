@@ -38,7 +38,7 @@ bool reachable(Mesh const &mesh, CycleState const &s, double dt, View<double *[2
 {
   Mesh next = mesh;
   next.node_position = target;
-  next.cell_area = View<double *>("Harmos::nextArea", mesh.num_cells);
+  separateGeometry(next);
   updateGeometry(next);
   int strayed = 0;
   LagrangeWork altitudes;

@@ -227,7 +227,7 @@ View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
   scene.target_mesh(mesh, s, dt, target);
   exchangeNodePositions(mesh, *scene.exchange, mesh.halo, target);
   mesh.node_position = target;
-  mesh.cell_area = View<double *>("Harmos::targetArea", mesh.num_cells);
+  separateGeometry(mesh);
   updateGeometry(mesh);
   if (scene.exchange->max(countInvertedCells(mesh)) > 0.0)
     throw std::runtime_error("the target mesh has cells that are not strictly convex");

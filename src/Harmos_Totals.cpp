@@ -155,7 +155,8 @@ Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials,
       totals.mass += row.mass;
       totals.momentum_x += row.momentum_x;
       totals.momentum_y += row.momentum_y;
-      totals.angular_momentum += angular;
+      // rings turn about no axis that the plane shows
+      totals.angular_momentum += scene.mesh.geometry == Geometry::Planar ? angular : 0.0;
       totals.kinetic_energy += row.kinetic_energy;
       totals.internal_energy += row.internal_energy;
     }

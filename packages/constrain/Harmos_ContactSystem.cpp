@@ -130,7 +130,8 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
   for (int f = 0; f < system.num_free; ++f)
   {
     RigidBody const &body = bodies[static_cast<std::size_t>(system.free_number(f))];
-    inverse(f, 0) = inverse(f, 1) = body.inverseMass();
+    inverse(f, 0) = body.axial ? 0.0 : body.inverseMass();
+    inverse(f, 1) = body.inverseMass();
     inverse(f, 2) = body.inverseInertia();
     scale(f, 0) = scale(f, 1) = 1.0;
     scale(f, 2) = std::sqrt(body.inertia / body.mass);

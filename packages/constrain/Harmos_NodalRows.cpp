@@ -103,7 +103,7 @@ private:
     row.cell_b = other / 4;
     row.point = {mesh.node_position(node, 0), mesh.node_position(node, 1)};
     row.normal = merged ? Vector2{1.0, 0.0} : normalAt(node, a, b);
-    row.length = Math::sqrt(mesh.cell_area(cell));
+    row.length = Math::sqrt(mesh.cell_area(cell)) * (mesh.cell_volume(cell) / mesh.cell_area(cell));
     PairInteraction const &law = interaction(a, b);
     row.tied = merged || law.kind == Interaction::Bonded ? 1 : 0;
     row.friction = !merged && law.kind == Interaction::Friction ? law.friction : 0.0;

@@ -21,7 +21,8 @@ struct RigidBody
 {
   int material = -1;
   RigidMotion motion = RigidMotion::Fixed;
-  double mass = 0.0;    // [kg/m]
+  bool axial = false;   // moves along y alone: rings about the axis of an axisymmetric mesh
+  double mass = 0.0;    // [kg/m], or per radian [kg]
   double inertia = 0.0; // about the centre of mass, per depth [kg m]
   Vector2 centre = {0.0, 0.0};
   double angle = 0.0; // [rad], of the outline against its body frame
@@ -33,7 +34,7 @@ struct RigidBody
     return velocity + angular_velocity * perpendicular(x - centre);
   }
   KOKKOS_INLINE_FUNCTION double inverseMass() const { return motion == RigidMotion::Free ? 1.0 / mass : 0.0; }
-  KOKKOS_INLINE_FUNCTION double inverseInertia() const { return motion == RigidMotion::Free ? 1.0 / inertia : 0.0; }
+  KOKKOS_INLINE_FUNCTION double inverseInertia() const { return motion == RigidMotion::Free && !axial ? 1.0 / inertia : 0.0; }
 };
 
 } // namespace Harmos

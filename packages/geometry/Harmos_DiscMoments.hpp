@@ -59,12 +59,28 @@ KOKKOS_INLINE_FUNCTION double angleMinusSine(double theta)
          (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0 * (1.0 - t / 156.0)))));
 }
 
+/// The same region's moments about the origin that is `from` away: of x + from.
+template <int Order>
+KOKKOS_INLINE_FUNCTION Moments<Order> shifted(Moments<Order> m, Vector2 const &from)
+{
+  static_assert(Order == 1 || Order == 2, "orders 1 and 2");
+  if constexpr (Order == 2)
+    for (int d = 0; d < 2; ++d)
+      for (int e = d; e < 2; ++e)
+        m.value[3 + d + e] += from[d] * m.first(e) + from[e] * m.first(d) + from[d] * from[e] * m.volume();
+  for (int d = 0; d < 2; ++d)
+    m.value[1 + d] += from[d] * m.value[0];
+  return m;
+}
+
 /// Moments about `origin` of the circular segment between an arc and its chord, counter-clockwise from p to q, both on
-/// the circle, of angle theta at most pi/2 (a negative one, which round-off may bring, counts negative):
-/// V = R^2 (theta - sin theta) / 2, first = V c + (2/3) R^3 sin^3(theta/2) m, c the centre and m the unit vector to the
-/// arc's middle.
-KOKKOS_INLINE_FUNCTION Moments<1> circularSegmentMoments(Disc const &disc, Vector2 const &p, Vector2 const &q,
-                                                         Vector2 const &origin)
+/// the circle, of angle theta at most pi/2 (a negative one, which round-off may bring, counts negative). With m the
+/// unit vector from the centre to the arc's middle, t across it, about the centre: V = R^2 (theta - sin theta) / 2,
+/// first = (2/3) R^3 sin^3(theta/2) m, mm = R^4 (2 theta - sin 2 theta) / 16, tt = R^4 (8 (theta - sin theta) - (2
+/// theta - sin 2 theta)) / 48.
+template <int Order>
+KOKKOS_INLINE_FUNCTION Moments<Order> circularSegmentMoments(Disc const &disc, Vector2 const &p, Vector2 const &q,
+                                                             Vector2 const &origin)
 {
   Vector2 const a = p - disc.centre;
   Vector2 const b = q - disc.centre;
@@ -72,27 +88,33 @@ KOKKOS_INLINE_FUNCTION Moments<1> circularSegmentMoments(Disc const &disc, Vecto
   if (cross(a, b) < 0.0)
     half_sine = -half_sine;
   double const theta = 2.0 * Math::asin(Math::clamp(half_sine, -1.0, 1.0));
-  double const volume = 0.5 * disc.radius * disc.radius * angleMinusSine(theta);
-  double const lever = 2.0 / 3.0 * disc.radius * disc.radius * disc.radius * half_sine * half_sine * half_sine;
-  Vector2 const first = volume * (disc.centre - origin) + lever * normalised(a + b);
-  return Moments<1>{{volume, first[0], first[1]}};
+  double const radius2 = disc.radius * disc.radius;
+  double const lever = 2.0 / 3.0 * radius2 * disc.radius * half_sine * half_sine * half_sine;
+  Vector2 const towards = normalised(a + b);
+  Moments<Order> m;
+  m.value[0] = 0.5 * radius2 * angleMinusSine(theta);
+  m.value[1] = lever * towards[0];
+  m.value[2] = lever * towards[1];
+  if constexpr (Order == 2)
+  {
+    double const along = radius2 * radius2 / 16.0 * angleMinusSine(2.0 * theta);
+    double const across = radius2 * radius2 / 6.0 * angleMinusSine(theta) - along / 3.0;
+    m.value[3] = along * towards[0] * towards[0] + across * towards[1] * towards[1];
+    m.value[4] = (along - across) * towards[0] * towards[1];
+    m.value[5] = along * towards[1] * towards[1] + across * towards[0] * towards[0];
+  }
+  return shifted(m, disc.centre - origin);
 }
 
 /// Moments about `origin` of the triangle (origin, a, b).
-KOKKOS_INLINE_FUNCTION Moments<1> triangleMoments(Vector2 const &origin, Vector2 const &a, Vector2 const &b)
+template <int Order>
+KOKKOS_INLINE_FUNCTION Moments<Order> triangleMoments(Vector2 const &origin, Vector2 const &a, Vector2 const &b)
 {
-  Vector2 const p = a - origin;
-  Vector2 const q = b - origin;
-  double const c = cross(p, q);
-  return Moments<1>{{0.5 * c, c * (p[0] + q[0]) / 6.0, c * (p[1] + q[1]) / 6.0}};
-}
-
-/// The same region's moments about (0, 0).
-KOKKOS_INLINE_FUNCTION Moments<1> aboutZero(Moments<1> m, Vector2 const &origin)
-{
-  for (int d = 0; d < 2; ++d)
-    m.value[1 + d] += origin[d] * m.value[0];
-  return m;
+  Polygon<3> triangle;
+  triangle.push(origin);
+  triangle.push(a);
+  triangle.push(b);
+  return moments<Order>(triangle, origin);
 }
 
 /// Moments about (0, 0) of disc ∩ convex polygon, where the polygon lies in one quadrant about the disc's centre.
@@ -100,10 +122,10 @@ KOKKOS_INLINE_FUNCTION Moments<1> aboutZero(Moments<1> m, Vector2 const &origin)
 /// The boundary of the intersection is one loop: the parts of the polygon's edges inside the disc, joined by arcs of at
 /// most a quarter turn. Each arc is its chord and a circular segment, so that nothing of the size of the radius
 /// cancels.
-template <int Capacity>
-KOKKOS_INLINE_FUNCTION Moments<1> discMomentsInQuadrant(Polygon<Capacity> const &polygon, Disc const &disc)
+template <int Order, int Capacity>
+KOKKOS_INLINE_FUNCTION Moments<Order> discMomentsInQuadrant(Polygon<Capacity> const &polygon, Disc const &disc)
 {
-  Moments<1> m;
+  Moments<Order> m;
   bool any = false;
   Vector2 first = {0.0, 0.0};
   Vector2 last = {0.0, 0.0};
@@ -130,26 +152,26 @@ KOKKOS_INLINE_FUNCTION Moments<1> discMomentsInQuadrant(Polygon<Capacity> const 
       first = p;
     else if (last[0] != p[0] || last[1] != p[1])
     {
-      m += triangleMoments(first, last, p);
-      m += circularSegmentMoments(disc, last, p, first);
+      m += triangleMoments<Order>(first, last, p);
+      m += circularSegmentMoments<Order>(disc, last, p, first);
     }
-    m += triangleMoments(first, p, q);
+    m += triangleMoments<Order>(first, p, q);
     last = q;
     any = true;
   }
   if (any && (last[0] != first[0] || last[1] != first[1]))
-    m += circularSegmentMoments(disc, last, first, first);
-  return aboutZero(m, first);
+    m += circularSegmentMoments<Order>(disc, last, first, first);
+  return shifted(m, first);
 }
 
 /// Moments about (0, 0) of disc ∩ convex polygon, counter-clockwise: closed form, exact but for round-off.
 ///
 /// The polygon is cut along the axes through the centre (only where they meet it), so that no arc exceeds a quarter
 /// turn and no arc can be taken for its complement. Put (0, 0) near the polygon.
-template <int Capacity>
-KOKKOS_INLINE_FUNCTION Moments<1> discMoments(Polygon<Capacity> const &polygon, Disc const &disc)
+template <int Order = 1, int Capacity>
+KOKKOS_INLINE_FUNCTION Moments<Order> discMoments(Polygon<Capacity> const &polygon, Disc const &disc)
 {
-  Moments<1> m;
+  Moments<Order> m;
   Polygon<Capacity + 1> half;
   Polygon<Capacity + 2> quarter;
   for (int sx = -1; sx <= 1; sx += 2)
@@ -160,7 +182,7 @@ KOKKOS_INLINE_FUNCTION Moments<1> discMoments(Polygon<Capacity> const &polygon, 
     {
       double const y = sy;
       clip(half, Plane2{{0.0, y}, y * disc.centre[1]}, quarter);
-      m += discMomentsInQuadrant(quarter, disc);
+      m += discMomentsInQuadrant<Order>(quarter, disc);
     }
   }
   return m;

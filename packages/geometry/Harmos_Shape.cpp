@@ -236,6 +236,22 @@ double Shape::area() const
   return Math::pi * (outer_radius - inner_radius) * (outer_radius + inner_radius);
 }
 
+double Shape::volume(Geometry geometry) const
+{
+  if (geometry == Geometry::Planar || kind == Kind::HalfPlane)
+    return area();
+  Box box = boundingBox();
+  box.low[0] = std::max(box.low[0], 0.0);
+  if (!(box.high[0] > box.low[0]))
+    return 0.0;
+  Quadrilateral whole;
+  whole.push(box.low);
+  whole.push({box.high[0], box.low[1]});
+  whole.push(box.high);
+  whole.push({box.low[0], box.high[1]});
+  return intersectionMoments(whole, geometry).volume();
+}
+
 double Shape::inertia() const
 {
   if (kind == Kind::HalfPlane)
@@ -300,20 +316,20 @@ CellPosition Shape::position(Quadrilateral const &cell) const
   return contains(middle) ? CellPosition::Inside : CellPosition::Outside;
 }
 
-Moments<1> Shape::intersectionMoments(Quadrilateral const &cell) const
+Moments<1> Shape::intersectionMoments(Quadrilateral const &cell, Geometry geometry) const
 {
   switch (position(cell))
   {
   case CellPosition::Outside:
     return Moments<1>();
   case CellPosition::Inside:
-    return moments<1>(cell, cell[0]);
+    return moments<1>(cell, cell[0], areaWeight(geometry, cell[0]));
   case CellPosition::Cut:
     break;
   }
   ShapeRegion region(cell);
   region.intersect(*this);
-  return region.moments();
+  return region.moments(geometry);
 }
 
 } // namespace Harmos

@@ -2,6 +2,7 @@
 #ifndef HARMOS_SHAPE_HPP
 #define HARMOS_SHAPE_HPP
 
+#include <Harmos_AreaWeight.hpp>
 #include <Harmos_Bilinear.hpp>
 #include <Harmos_DiscMoments.hpp>
 
@@ -86,6 +87,8 @@ struct Shape
   Box boundingBox() const;
   /// [m^2]; infinite for a half-plane.
   double area() const;
+  /// The area, or per radian the volume of the ring that the part at r > 0 sweeps [m^3]; infinite for a half-plane.
+  double volume(Geometry geometry) const;
   Vector2 centroid() const { return centre; }
   /// Polar second moment of area about the centroid, integral of |x - centroid|^2. [m^4]; infinite for a half-plane.
   double inertia() const;
@@ -97,9 +100,9 @@ struct Shape
   /// A quick answer for most cells: Inside and Outside are sure (to round-off).
   CellPosition position(Quadrilateral const &cell) const;
 
-  /// Moments of the convex cell ∩ this shape about the cell's corner 0, in closed form (round-off alone).
-  /// The centroid in space is cell[0] + moments.centroid().
-  Moments<1> intersectionMoments(Quadrilateral const &cell) const;
+  /// Moments of the convex cell ∩ this shape about the cell's corner 0, with the geometry's weight, in closed form
+  /// (round-off alone). The centroid in space is cell[0] + moments.centroid().
+  Moments<1> intersectionMoments(Quadrilateral const &cell, Geometry geometry = Geometry::Planar) const;
 };
 
 } // namespace Harmos

@@ -179,17 +179,25 @@ void ShapeRegion::subtract(Shape const &shape)
   }
 }
 
-Moments<1> ShapeRegion::moments() const
+template <int Order>
+Moments<Order> ShapeRegion::planeMoments() const
 {
-  Moments<1> sum;
+  Moments<Order> sum;
   for (Term const &term : terms_)
   {
-    Moments<1> const m = term.has_disc ? discMoments(term.polygon, term.disc)
-                                       : aboutZero(Harmos::moments<1>(term.polygon, term.polygon[0]), term.polygon[0]);
-    for (int i = 0; i < Moments<1>::count; ++i)
+    Vector2 const first = term.polygon[0];
+    Moments<Order> const m = term.has_disc ? discMoments<Order>(term.polygon, term.disc)
+                                           : shifted(Harmos::moments<Order>(term.polygon, first), first);
+    for (int i = 0; i < Moments<Order>::count; ++i)
       sum.value[i] += term.sign * m.value[i];
   }
   return sum;
+}
+
+Moments<1> ShapeRegion::moments(Geometry geometry) const
+{
+  return geometry == Geometry::Planar ? planeMoments<1>()
+                                      : weighted<1>(planeMoments<2>(), areaWeight(geometry, origin_));
 }
 
 } // namespace Harmos

@@ -31,8 +31,8 @@ public:
   /// Keep what lies outside `shape`.
   void subtract(Shape const &shape);
 
-  /// About the cell's corner 0.
-  Moments<1> moments() const;
+  /// About the cell's corner 0, with the geometry's weight.
+  Moments<1> moments(Geometry geometry = Geometry::Planar) const;
   bool empty() const { return terms_.empty(); }
 
   static constexpr int capacity = 32; // vertices of a convex piece; more throw std::runtime_error
@@ -46,6 +46,8 @@ private:
     Disc disc; // relative to origin_
   };
 
+  template <int Order>
+  Moments<Order> planeMoments() const;
   static void appendIntersection(Term const &term, Disc const &disc, double factor, std::vector<Term> &result);
   std::vector<Plane2> lines(Shape const &shape, std::vector<int> const &piece) const;
   bool mayMeet(Shape const &shape, std::vector<int> const &piece) const;

@@ -22,11 +22,6 @@
 namespace Harmos
 {
 
-enum class Geometry
-{
-  Planar // per unit depth
-};
-
 /// Cells along one axis. Sizes grow geometrically: last / first = grading.
 struct AxisSpec
 {

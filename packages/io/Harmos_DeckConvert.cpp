@@ -238,6 +238,27 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.remap.return_kinetic_defect = remap.get<bool>("return_kinetic_defect");
 }
 
+/// What has no meaning about an axis, or is planar only, is refused.
+void checkAxisymmetric(DeckChecker const &check, Deck const &deck)
+{
+  std::string const why = " with geometry axisymmetric";
+  check.require(deck.x.from >= 0.0, "mesh/x/from", numberText(deck.x.from) + " is a radius" + why + "; expected: >= 0");
+  if (deck.x.from == 0.0)
+    check.require(deck.boundary[Left].kind == BoundaryKind::SlipWall, "boundaries/left/type",
+                  "the side is the axis" + why + " and mesh/x/from 0; expected: slip wall");
+  check.require(deck.lagrange.gravity[0] == 0.0, "gravity", "it has a radial part" + why + "; expected: [0, g]");
+  check.require(deck.prescribed.kind == FieldKind::None, "prescribed_velocity/field",
+                "the fields are planar" + why + "; expected: none");
+  check.require(deck.remap.order < 3, "numerics/remap/order", "3 is planar" + why + "; expected: 1 or 2");
+  for (BodySpec const &body : deck.bodies)
+  {
+    std::string const path = "bodies/" + body.name;
+    check.require(body.angular_velocity == 0.0, keyPath(path, "angular_velocity"), "a ring does not turn" + why);
+    check.require(!deck.laws[body.law].rigid || body.velocity[0] == 0.0, keyPath(path, "velocity"),
+                  "a rigid ring moves along the axis alone" + why + "; expected: [0, v]");
+  }
+}
+
 /// What a prescribed field leaves no meaning to is refused.
 void checkPrescribed(DeckChecker const &check, ParameterList const &complete, Deck const &deck)
 {
@@ -366,6 +387,7 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   deck.kinematics = kinematics == "single"       ? Kinematics::Single
                     : kinematics == "lagrangian" ? Kinematics::Lagrangian
                                                  : Kinematics::Xfem;
+  deck.geometry = complete.get<std::string>("geometry") == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
   deck.lagrange.gravity = vectorOf(complete, "gravity");
   deck.x = axisOf(check, complete.sublist("mesh").sublist("x"), "mesh/x");
   deck.y = axisOf(check, complete.sublist("mesh").sublist("y"), "mesh/y");
@@ -387,6 +409,8 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   convertInteractions(check, complete.sublist("interactions"), deck);
   convertNumerics(check, complete.sublist("numerics"), deck);
   convertPrescribed(check, complete, deck);
+  if (deck.geometry == Geometry::Axisymmetric)
+    checkAxisymmetric(check, deck);
   convertRunAndOutput(complete.sublist("run"), complete.sublist("output"), deck);
   check.require(deck.output.xdmf || !deck.output.vtu, "output/vtu",
                 "true without output/xdmf: a restart finds the times of the .vtu files in the HDF5 files; expected: "

@@ -98,7 +98,8 @@ void addTop(ParameterList &list)
   add(list, "kinematics", std::string("xfem"), choice({"xfem", "single", "lagrangian"}),
       "xfem: every field has its own velocity; single: one velocity in a mixed cell; lagrangian: body-fitted blocks "
       "that move with the material, no remap");
-  add(list, "geometry", std::string("planar"), choice({"planar"}), "planar: per unit depth");
+  add(list, "geometry", std::string("planar"), choice({"planar", "axisymmetric"}),
+      "planar: per unit depth; axisymmetric: x is the radius, y the axis of symmetry, all amounts per radian");
   add(list, "gravity", pair(0.0, 0.0), numbers(2, 2, "m/s^2"), "acceleration of every deformable and free body");
 }
 

@@ -187,6 +187,7 @@ void FieldOutput::write(long long cycle, double time, FieldSnapshot const &snaps
   frame.number = frames_.empty() ? 0 : frames_.back().number + 1;
   frame.cycle = cycle;
   frame.time = time;
+  frame.axisymmetric = snapshot.geometry == Geometry::Axisymmetric ? 1 : 0;
   frame.nodes = fields.node_order.total();
   frame.cells = fields.cell_order.total();
   frame.pairs = fields.pair_order.total();

@@ -17,6 +17,7 @@ struct FieldFrame
   int number = 0; // of the file: fields_000012.h5
   long long cycle = 0;
   double time = 0.0;
+  int axisymmetric = 0; // 1: x is the radius, y the axis
   long long nodes = 0, cells = 0, pairs = 0, vertices = 0, segments = 0;
 };
 

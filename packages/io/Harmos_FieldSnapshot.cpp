@@ -25,6 +25,7 @@ struct HostState
   decltype(onHost(View<double *[2]>())) node_position, velocity;
   decltype(onHost(View<int *[4]>())) cell_node, face_neighbour, face_boundary, dof_node;
   decltype(onHost(View<double *>())) cell_area;
+  decltype(onHost(View<double *>())) cell_volume;
   decltype(onHost(View<int *>())) cell_depth, node_owned, offset, material, cell, cell_region, dof_offset;
   decltype(onHost(View<long long *>())) cell_global, node_global;
   decltype(onHost(View<double *[num_pair_fields]>())) record;
@@ -98,7 +99,7 @@ void addCell(HostState const &h, int c, FieldSnapshot::Cells &cells)
   for (int k = 0; k < 4; ++k)
     cells.node.push_back(h.node_global(h.cell_node(c, k)));
   cells.volume_fraction.push_back(filled);
-  cells.density.push_back(filled > 0.0 ? mass / (filled * h.cell_area(c)) : 0.0);
+  cells.density.push_back(filled > 0.0 ? mass / (filled * h.cell_volume(c)) : 0.0);
   cells.pressure.push_back(filled > 0.0 ? pressure / filled : 0.0);
   cells.material.push_back(largest >= 1.0 - filled ? dominant : -1);
 }
@@ -120,7 +121,7 @@ void addPair(HostState const &h, int pair, FieldSnapshot::Pairs &pairs)
   pairs.cell.push_back(h.cell_global(c));
   pairs.material.push_back(h.material(pair));
   pairs.volume_fraction.push_back(fraction);
-  pairs.density.push_back(h.record(pair, Mass) / (fraction * h.cell_area(c)));
+  pairs.density.push_back(h.record(pair, Mass) / (fraction * h.cell_volume(c)));
   pairs.pressure.push_back(h.pressure(pair));
   pairs.internal_energy.push_back(h.record(pair, InternalEnergy));
   pairs.plastic_strain.push_back(h.record(pair, PlasticStrain));
@@ -211,6 +212,7 @@ FieldSnapshot takeSnapshot(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
   h.face_boundary = onHost(mesh.face_boundary);
   h.dof_node = onHost(pairs.dof_node);
   h.cell_area = onHost(mesh.cell_area);
+  h.cell_volume = onHost(mesh.cell_volume);
   h.cell_depth = onHost(mesh.cell_depth);
   h.node_owned = onHost(mesh.node_owned);
   h.offset = onHost(pairs.offset);
@@ -225,6 +227,7 @@ FieldSnapshot takeSnapshot(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
   h.law = onHost(materials);
 
   FieldSnapshot snapshot;
+  snapshot.geometry = mesh.geometry;
   addNodes(h, mesh.num_nodes, dof_nodes.num_dof_nodes, pairs.num_pairs, snapshot.nodes);
   for (int c = 0; c < mesh.num_cells; ++c)
   {

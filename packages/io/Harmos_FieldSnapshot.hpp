@@ -16,6 +16,8 @@ namespace Harmos
 /// Vectors have three components (the last is zero), as viewers expect them.
 struct FieldSnapshot
 {
+  Geometry geometry = Geometry::Planar;
+
   struct Nodes
   {
     std::vector<long long> global;

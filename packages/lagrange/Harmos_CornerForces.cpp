@@ -8,6 +8,7 @@ namespace Harmos
 namespace
 {
 
+template <Geometry geometry>
 struct CornerForceFunctor
 {
   LagrangeOptions options;
@@ -28,9 +29,9 @@ struct CornerForceFunctor
       cell[lane] = cell_of[pair[lane]];
     detail::Corners<Pack> f = {};
     if (material.rigid_body < 0)
-      f = detail::pairForces(material, options, detail::loadPackedRecord(record, pair),
-                             detail::packedCorners(cell_node, position, cell),
-                             detail::packedCorners(dof_node, velocity, pair));
+      f = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair),
+                                       detail::packedCorners(cell_node, position, cell),
+                                       detail::packedCorners(dof_node, velocity, pair));
     Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
     storeRows(row, lanes, [&](int lane) { return corner_force.row(pair[lane]); });
   }
@@ -42,15 +43,24 @@ struct CornerForceFunctor
   }
 };
 
+template <Geometry geometry>
+void launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state, View<Material *> const &materials,
+            LagrangeOptions const &options, LagrangeWork &work)
+{
+  Kokkos::parallel_for("Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)),
+                       CornerForceFunctor<geometry>{options, pairs.num_pairs, pairs.material.data(), pairs.cell.data(),
+                                                    materials.data(), mesh.cell_node, pairs.dof_node,
+                                                    mesh.node_position, state.velocity, state.record,
+                                                    work.corner_force});
+}
+
 } // namespace
 
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work)
 {
-  Kokkos::parallel_for("Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)),
-                       CornerForceFunctor{options, pairs.num_pairs, pairs.material.data(), pairs.cell.data(),
-                                          materials.data(), mesh.cell_node, pairs.dof_node, mesh.node_position,
-                                          state.velocity, state.record, work.corner_force});
+  auto const launcher = mesh.geometry == Geometry::Planar ? launch<Geometry::Planar> : launch<Geometry::Axisymmetric>;
+  launcher(mesh, pairs, state, materials, options, work);
 }
 
 } // namespace Harmos

@@ -93,7 +93,7 @@ struct KineticSums
 enum MaterialSum : int
 {
   SumMass = 0,
-  SumVolume, // geometric: volume fraction * cell area
+  SumVolume, // geometric: volume fraction * cell volume
   SumMomentumX,
   SumMomentumY,
   SumAngularMomentum, // about the origin
@@ -120,6 +120,8 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
 /// Corner forces of all deformable pairs (on the nodes) -> work.corner_force; rigid pairs: zero.
 ///
 /// f_I = - m sv (s - (p + q) 1) B_I + hourglass, B_I the mean-quadrature gradient of the whole cell at x^n.
+/// Axisymmetric (x = r, y = z, per radian): V B_I = integral of r grad N_I dA, and the hoop stress acts on the integral
+/// of N_I dA in addition (detail/Harmos_RingQuadrature.hpp): f_I . v_I sums to - m sv sigma : D, tr D = V'/V.
 /// Viscosity in compression (theta = tr D < 0, at v^{n-1/2}): q = rho (c1 c L |theta| + c2 L^2 theta^2), L^2 the cell's
 /// area, c the longitudinal sound speed. Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C = kappa m c / (4 L),
 /// gamma_I = Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1): orthogonal to linear fields.

@@ -94,7 +94,7 @@ struct SlowLight
     }
     if (best < 0)
       return -1;
-    double const full = mesh.cell_area(pairs.cell(best)) / record(best, SpecificVolume);
+    double const full = mesh.cell_volume(pairs.cell(best)) / record(best, SpecificVolume);
     return dof_mass(dof) < light_node * full ? best : -1;
   }
 

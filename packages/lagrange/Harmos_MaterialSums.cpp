@@ -40,7 +40,7 @@ KOKKOS_INLINE_FUNCTION void addPair(Mesh const &mesh, CellMaterialPairs const &p
     speed2 += v.x[k] * v.x[k] + v.y[k] * v.y[k];
   }
   row[SumMass] += mass;
-  row[SumVolume] += record(pair, VolumeFraction) * mesh.cell_area(cell);
+  row[SumVolume] += record(pair, VolumeFraction) * mesh.cell_volume(cell);
   row[SumMomentumX] += 0.25 * mass * px;
   row[SumMomentumY] += 0.25 * mass * py;
   row[SumAngularMomentum] += 0.25 * mass * turning;

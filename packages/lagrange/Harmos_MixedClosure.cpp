@@ -85,7 +85,10 @@ struct ClosureFunctor
       return;
     auto const x = detail::cellCorners(mesh, cell);
     auto const v = detail::cornerVelocities(pairs, half, pairs.offset(cell));
-    double const ratio = detail::meanGradient(detail::moved(x, dt, v)).area / detail::meanGradient(x).area;
+    auto const moved = detail::moved(x, dt, v);
+    bool const planar = mesh.geometry == Geometry::Planar;
+    double const ratio = planar ? detail::meanGradient(moved).area / detail::meanGradient(x).area
+                                : detail::ringGradient(moved).volume / detail::ringGradient(x).volume;
     if (!(ratio > 0.0))
       return;
     double filled = rigid;

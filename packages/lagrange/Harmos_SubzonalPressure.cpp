@@ -62,7 +62,9 @@ void addSubzonalForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairSta
         Quadrilateral const q = cellQuadrilateral(mesh, cell);
         double const sv = record(pair, SpecificVolume);
         double const c2 = equationOfState(material, sv, record(pair, InternalEnergy)).sound_speed_squared;
-        double const stiffness = merit * c2 / sv;
+        // planar: 1; axisymmetric: the mean radius
+        double const depth = mesh.cell_volume(cell) / mesh.cell_area(cell);
+        double const stiffness = depth * merit * c2 / sv;
         Vector2 force[4] = {};
         for (int k = 0; k < 4; ++k)
         {

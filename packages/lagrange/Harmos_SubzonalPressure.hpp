@@ -20,9 +20,9 @@ View<double *[4]> subzoneFractions(Mesh const &mesh);
 /// its mass, so that its density differs from the cell's by the ratio of areas:
 /// dp_I = merit rho c^2 (phi_I A / A_I - 1), f_J = sum_I dp_I dA_I/dx_J; phi the fractions at the start, A_I the areas
 /// now, c the bulk sound speed. The forces of a cell have no resultant and no moment and vanish where A_I = phi_I A;
-/// their work is part of corner_force's. For pairs that fill their cell and moved with it from the start: kinematics
-/// lagrangian. Rigid pairs: nothing.
-/// Caramana & Shashkov, J. Comput. Phys. 142 (1998) 521-561.
+/// their work is part of corner_force's. Axisymmetric: times the cell's mean radius, A the areas in the plane. For
+/// pairs that fill their cell and moved with it from the start: kinematics lagrangian. Rigid pairs: nothing. Caramana &
+/// Shashkov, J. Comput. Phys. 142 (1998) 521-561.
 void addSubzonalForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                        View<Material *> const &materials, View<double *[4]> const &fraction, double merit,
                        LagrangeWork &work);

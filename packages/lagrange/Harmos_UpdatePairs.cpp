@@ -68,6 +68,7 @@ KOKKOS_FORCEINLINE_FUNCTION auto isFinite(detail::PairRecord<T> const &r)
   return both(r.specific_volume > T(0.0), T((r.specific_volume - r.specific_volume) + (all - all)) == T(0.0));
 }
 
+template <Geometry geometry>
 struct UpdateFunctor
 {
   CellMaterialPairs pairs;
@@ -143,7 +144,8 @@ struct UpdateFunctor
       return;
     }
     Pack const power = cornerPower(corner_force, pair, detail::packedCorners(dof_node, velocity, pair), v);
-    auto const updated = detail::updatePair(material, detail::loadPackedRecord(record, pair), x, v, power, dt);
+    auto const updated =
+        detail::updatePair<geometry>(material, detail::loadPackedRecord(record, pair), x, v, power, dt);
     auto const &r = updated.record;
     Pack const fraction = packOf([&](int lane) { return record(pair[lane], VolumeFraction); });
     Pack const row[num_pair_fields] = {r.mass,           fraction,      r.specific_volume, r.internal_energy,
@@ -170,32 +172,58 @@ struct UpdateFunctor
   }
 };
 
+template <Geometry geometry>
+UpdateSums launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                  View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                  LagrangeWork const &work)
+{
+  UpdateFunctor<geometry> const update{pairs,
+                                       pairs.cell.data(),
+                                       pairs.material.data(),
+                                       mesh.cell_depth.data(),
+                                       materials.data(),
+                                       options,
+                                       detail::StepLimits(options),
+                                       dt,
+                                       mesh.cell_node,
+                                       pairs.dof_node,
+                                       mesh.node_position,
+                                       state.velocity,
+                                       work.half,
+                                       state.record,
+                                       work.corner_force,
+                                       work.dof_mass,
+                                       mesh.num_owned_cells == mesh.num_cells};
+  UpdateSums result;
+  Kokkos::parallel_reduce("Harmos::lagrange::updatePairs", RangePolicy(0, numPacks(pairs.num_pairs)), update,
+                          detail::JoinReducer<UpdateSums>(result));
+  return result;
+}
+
+/// Volume and tr D of a cell, at any velocity.
+KOKKOS_INLINE_FUNCTION void volumeAndRate(Geometry geometry, detail::Corners<double> const &x,
+                                          detail::Corners<double> const &v, double &volume, double &rate)
+{
+  if (geometry == Geometry::Planar)
+  {
+    auto const b = detail::meanGradient(x);
+    volume = b.area;
+    rate = detail::traceOf(detail::velocityGradient(b, v)) / volume;
+    return;
+  }
+  auto const b = detail::ringGradient(x);
+  volume = b.volume;
+  rate = detail::traceOf(detail::velocityGradient(b, v)) / volume;
+}
+
 } // namespace
 
 UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, double dt,
                          LagrangeWork const &work, TimeStepLimit &next)
 {
-  UpdateFunctor const update{pairs,
-                             pairs.cell.data(),
-                             pairs.material.data(),
-                             mesh.cell_depth.data(),
-                             materials.data(),
-                             options,
-                             detail::StepLimits(options),
-                             dt,
-                             mesh.cell_node,
-                             pairs.dof_node,
-                             mesh.node_position,
-                             state.velocity,
-                             work.half,
-                             state.record,
-                             work.corner_force,
-                             work.dof_mass,
-                             mesh.num_owned_cells == mesh.num_cells};
-  UpdateSums result;
-  Kokkos::parallel_reduce("Harmos::lagrange::updatePairs", RangePolicy(0, numPacks(pairs.num_pairs)), update,
-                          detail::JoinReducer<UpdateSums>(result));
+  auto const launcher = mesh.geometry == Geometry::Planar ? launch<Geometry::Planar> : launch<Geometry::Axisymmetric>;
+  UpdateSums const result = launcher(mesh, pairs, state, materials, options, dt, work);
   next = limitFrom(result.largest, pairs);
   UpdateReport report;
   report.inverted = result.inverted;
@@ -238,10 +266,11 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
           return;
         }
         auto const b = detail::meanGradient(x);
-        auto const gradient = detail::velocityGradient(b, v);
         double const inverse = 1.0 / b.area;
-        detail::StepGeometry<double> const geometry{b.area, detail::longestMidlineSquared(b) * inverse * inverse,
-                                                    Math::max(-(gradient.xx + gradient.yy) * inverse, 0.0)};
+        double volume, rate;
+        volumeAndRate(mesh.geometry, x, v, volume, rate);
+        detail::StepGeometry<double> const geometry{
+            b.area, volume, detail::longestMidlineSquared(b) * inverse * inverse, Math::max(-rate, 0.0)};
         double const sv = record(pair, SpecificVolume), e = record(pair, InternalEnergy);
         EosState<double> const eos = equationOfState(material, sv, e);
         double const acoustic = detail::acousticRate(material, options, geometry, eos, sv, e);

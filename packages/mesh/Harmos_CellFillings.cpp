@@ -88,10 +88,10 @@ CandidateCells candidateCells(Mesh const &mesh, std::vector<Box> const &boxes)
   return result;
 }
 
-std::vector<Filling> fillingsOf(Quadrilateral const &cell, std::vector<Part> const &parts,
+std::vector<Filling> fillingsOf(Quadrilateral const &cell, Geometry geometry, std::vector<Part> const &parts,
                                 std::vector<int> const &material_of_body)
 {
-  Moments<1> const whole = moments<1>(cell, cell[0]);
+  Moments<1> const whole = moments<1>(cell, cell[0], areaWeight(geometry, cell[0]));
   Box const of_cell = boundingBox(cell);
   std::vector<int> materials;
   for (Part const &part : parts)

@@ -22,7 +22,7 @@ struct CandidateCells
 
 CandidateCells candidateCells(Mesh const &mesh, std::vector<Box> const &boxes);
 
-/// What one body fills of a cell, moments about the cell's corner 0.
+/// What one body fills of a cell, moments about the cell's corner 0 with the geometry's weight.
 struct Part
 {
   int body;
@@ -36,14 +36,14 @@ struct Filling
   double fraction;
   Vector2 centroid;
   std::vector<int> body;
-  std::vector<double> volume; // of each body [length^2]
+  std::vector<double> volume; // of each body [length^2, or length^3 per radian]
 };
 
 /// Parts of a cell gathered by material, ascending.
 ///
 /// Fractions below 1e-14 are left out; where their sum is within 1e-13 of one, or above one, the largest is set so that
 /// they sum to one (in order of summation never above).
-std::vector<Filling> fillingsOf(Quadrilateral const &cell, std::vector<Part> const &parts,
+std::vector<Filling> fillingsOf(Quadrilateral const &cell, Geometry geometry, std::vector<Part> const &parts,
                                 std::vector<int> const &material_of_body);
 
 /// Fillings of some cells, in order.
@@ -55,7 +55,8 @@ struct FillingRows
 
 /// Calls parts_of(quadrilateral, local cell) for every candidate.
 template <class PartsOf>
-FillingRows fillCells(CandidateCells const &candidates, std::vector<int> const &material_of_body, PartsOf parts_of)
+FillingRows fillCells(CandidateCells const &candidates, Geometry geometry, std::vector<int> const &material_of_body,
+                      PartsOf parts_of)
 {
   auto const cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.cell);
   auto const corner = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.corner);
@@ -65,7 +66,7 @@ FillingRows fillCells(CandidateCells const &candidates, std::vector<int> const &
     Quadrilateral q;
     for (int k = 0; k < 4; ++k)
       q.push({corner(i, k, 0), corner(i, k, 1)});
-    for (Filling &filling : fillingsOf(q, parts_of(q, cell(i)), material_of_body))
+    for (Filling &filling : fillingsOf(q, geometry, parts_of(q, cell(i)), material_of_body))
     {
       rows.cell.push_back(cell(i));
       rows.filling.push_back(std::move(filling));

@@ -2,6 +2,7 @@
 #ifndef HARMOS_MESH_HPP
 #define HARMOS_MESH_HPP
 
+#include <Harmos_AreaWeight.hpp>
 #include <Harmos_Bilinear.hpp>
 
 namespace Harmos
@@ -23,6 +24,7 @@ struct Rows
 /// Face k of a cell joins its nodes k and (k + 1) % 4; nodes run counter-clockwise.
 struct Mesh
 {
+  Geometry geometry = Geometry::Planar; // setGeometry
   int num_cells = 0; // owned and halo
   int num_nodes = 0;
   int num_owned_cells = 0;
@@ -30,7 +32,8 @@ struct Mesh
 
   View<double *[2]> node_position;  // [length]
   View<int *[4]> cell_node;         // counter-clockwise
-  View<double *> cell_area;         // [length^2]
+  View<double *> cell_area;         // in the plane [length^2]
+  View<double *> cell_volume;       // planar: cell_area itself; axisymmetric: integral of r dA, per radian [length^3]
   View<int *[4]> face_neighbour;    // 4 * cell + its face number; -1: none on this rank (domain boundary or edge of the halo)
   View<int *[4]> face_boundary;     // number of the boundary that the face lies on, -1: none
   Rows cell_neighbour;              // cell -> cells that share a node with it, without itself, ascending

@@ -194,7 +194,7 @@ Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int ra
   mesh.halo = halo;
   setCells(mesh, whole, node_cell, s);
   setNodes(mesh, whole, node_cell, s, owner, rank);
-  mesh.cell_area = View<double *>("Harmos::mesh::cell_area", mesh.num_cells);
+  separateGeometry(mesh);
   updateGeometry(mesh);
   return mesh;
 }
@@ -205,6 +205,42 @@ void updateGeometry(Mesh &mesh)
   Kokkos::parallel_for(
       "Harmos::mesh::cellArea", RangePolicy(0, m.num_cells),
       KOKKOS_LAMBDA(int cell) { m.cell_area(cell) = area(cellQuadrilateral(m, cell)); });
+  if (m.geometry == Geometry::Planar)
+    return;
+  Kokkos::parallel_for(
+      "Harmos::mesh::cellVolume", RangePolicy(0, m.num_cells),
+      KOKKOS_LAMBDA(int cell) { m.cell_volume(cell) = volume(cellQuadrilateral(m, cell), m.geometry); });
+}
+
+void separateGeometry(Mesh &mesh)
+{
+  mesh.cell_area = View<double *>("Harmos::mesh::cell_area", mesh.num_cells);
+  bool const planar = mesh.geometry == Geometry::Planar;
+  mesh.cell_volume = planar ? mesh.cell_area : View<double *>("Harmos::mesh::cell_volume", mesh.num_cells);
+}
+
+void setGeometry(Mesh &mesh, Geometry geometry)
+{
+  auto const position = mesh.node_position;
+  int left_of_axis = mesh.num_nodes;
+  if (geometry == Geometry::Axisymmetric)
+    Kokkos::parallel_reduce(
+        "Harmos::mesh::leftOfAxis", RangePolicy(0, mesh.num_nodes),
+        KOKKOS_LAMBDA(int node, int &least) {
+          if (!(position(node, 0) >= 0.0))
+            least = Math::min(least, node);
+        },
+        Kokkos::Min<int>(left_of_axis));
+  if (mesh.num_nodes > 0 && left_of_axis < mesh.num_nodes)
+  {
+    double r = 0.0;
+    Kokkos::deep_copy(r, Kokkos::subview(position, left_of_axis, 0));
+    throw std::runtime_error("axisymmetric mesh: local node " + std::to_string(left_of_axis) +
+                             " has r = " + std::to_string(r) + " < 0");
+  }
+  mesh.geometry = geometry;
+  separateGeometry(mesh);
+  updateGeometry(mesh);
 }
 
 int countInvertedCells(Mesh const &mesh)

@@ -28,6 +28,7 @@ void checkCells(Mesh const &mesh)
   auto const node = hostCopy(mesh.cell_node);
   auto const position = hostCopy(mesh.node_position);
   auto const cell_area = hostCopy(mesh.cell_area);
+  auto const cell_volume = hostCopy(mesh.cell_volume);
   auto const neighbour = hostCopy(mesh.face_neighbour);
   auto const boundary = hostCopy(mesh.face_boundary);
   for (int c = 0; c < mesh.num_cells; ++c)
@@ -47,6 +48,9 @@ void checkCells(Mesh const &mesh)
         fail("cell", global(c), "a corner is not strictly convex");
     if (!(std::fabs(cell_area(c) - area(q)) <= 1e-14 * area(q)))
       fail("cell", global(c), "its area is not that of its nodes");
+    double const own = volume(q, mesh.geometry);
+    if (!(std::fabs(cell_volume(c) - own) <= 1e-14 * own))
+      fail("cell", global(c), "its volume is not that of its nodes");
     for (int k = 0; k < 4; ++k)
     {
       int const other = neighbour(c, k);

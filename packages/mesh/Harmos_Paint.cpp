@@ -31,9 +31,10 @@ std::string label(Body const &body, int number)
 struct BodyPainter
 {
   std::vector<Body> const &bodies;
+  Geometry geometry;
   std::vector<Box> box;
 
-  explicit BodyPainter(std::vector<Body> const &b) : bodies(b)
+  BodyPainter(std::vector<Body> const &b, Geometry g) : bodies(b), geometry(g)
   {
     for (Body const &body : bodies)
       box.push_back(body.shape.boundingBox());
@@ -47,12 +48,12 @@ struct BodyPainter
       if (j > i && bodies[j].cut_from_earlier)
         cutters.push_back(j);
     if (cutters.empty())
-      return bodies[i].shape.intersectionMoments(cell);
+      return bodies[i].shape.intersectionMoments(cell, geometry);
     ShapeRegion region(cell);
     region.intersect(bodies[i].shape);
     for (int const j : cutters)
       region.subtract(bodies[j].shape);
-    return region.moments();
+    return region.moments(geometry);
   }
 
   /// What both i and the later, not cutting j claim of the cell.
@@ -64,7 +65,7 @@ struct BodyPainter
     for (int const k : present)
       if (k > i && bodies[k].cut_from_earlier)
         region.subtract(bodies[k].shape);
-    return region.moments().volume();
+    return region.moments(geometry).volume();
   }
 
   std::vector<Part> parts(Quadrilateral const &cell, long long global_cell) const
@@ -79,7 +80,7 @@ struct BodyPainter
     for (int const i : present)
       result.push_back({i, remaining(cell, i, present)});
 
-    double const allowed = overlap_tolerance * area(cell);
+    double const allowed = overlap_tolerance * volume(cell, geometry);
     for (std::size_t a = 0; a < result.size(); ++a)
       for (std::size_t b = a + 1; b < result.size(); ++b)
       {
@@ -90,11 +91,12 @@ struct BodyPainter
           continue;
         double const shared = sharedVolume(cell, i, j, present);
         if (shared > allowed)
-          throw std::runtime_error(
-              "cell " + std::to_string(global_cell) + ": " + label(bodies[i], i) + " and " + label(bodies[j], j) +
-              " overlap at (" + shortText(0.5 * (of_cell.low[0] + of_cell.high[0])) + ", " +
-              shortText(0.5 * (of_cell.low[1] + of_cell.high[1])) + ") by " + shortText(shared / area(cell)) +
-              " of the cell (more than 1e-9), and the later one is not cut from the earlier");
+          throw std::runtime_error("cell " + std::to_string(global_cell) + ": " + label(bodies[i], i) + " and " +
+                                   label(bodies[j], j) + " overlap at (" +
+                                   shortText(0.5 * (of_cell.low[0] + of_cell.high[0])) + ", " +
+                                   shortText(0.5 * (of_cell.low[1] + of_cell.high[1])) + ") by " +
+                                   shortText(shared / volume(cell, geometry)) +
+                                   " of the cell (more than 1e-9), and the later one is not cut from the earlier");
       }
     return result;
   }
@@ -130,7 +132,7 @@ struct RigidFillings
 };
 
 /// Every cycle that a body moves: only cells that an outline crosses, or that several shapes share, are clipped.
-RigidFillings fillRigid(CandidateCells const &candidates, std::vector<Shape> const &shapes,
+RigidFillings fillRigid(CandidateCells const &candidates, Geometry geometry, std::vector<Shape> const &shapes,
                         std::vector<Box> const &boxes, std::vector<int> const &materials)
 {
   auto const cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.cell);
@@ -157,13 +159,13 @@ RigidFillings fillRigid(CandidateCells const &candidates, std::vector<Shape> con
       continue;
     if (present.size() == 1 && last == CellPosition::Inside)
     {
-      rows.push(cell(c), materials[present[0]], 1.0, q[0] + moments<1>(q, q[0]).centroid());
+      rows.push(cell(c), materials[present[0]], 1.0, volumeCentroid(q, geometry));
       continue;
     }
     std::vector<Part> parts;
     for (int const i : present)
-      parts.push_back({i, shapes[i].intersectionMoments(q)});
-    for (Filling const &filling : fillingsOf(q, parts, materials))
+      parts.push_back({i, shapes[i].intersectionMoments(q, geometry)});
+    for (Filling const &filling : fillingsOf(q, geometry, parts, materials))
       rows.push(cell(c), filling.material, filling.fraction, filling.centroid);
   }
   return rows;
@@ -174,12 +176,12 @@ RigidFillings fillRigid(CandidateCells const &candidates, std::vector<Shape> con
 Painting paint(Mesh const &mesh, std::vector<Body> const &bodies)
 {
   checkBodies(bodies);
-  BodyPainter const painter(bodies);
+  BodyPainter const painter(bodies, mesh.geometry);
   std::vector<int> material_of_body;
   for (Body const &body : bodies)
     material_of_body.push_back(body.material);
   auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_global);
-  FillingRows const rows = fillCells(candidateCells(mesh, painter.box), material_of_body,
+  FillingRows const rows = fillCells(candidateCells(mesh, painter.box), mesh.geometry, material_of_body,
                                      [&](Quadrilateral const &q, int cell) { return painter.parts(q, global(cell)); });
 
   int const num_pairs = static_cast<int>(rows.filling.size());
@@ -198,7 +200,7 @@ Painting paint(Mesh const &mesh, std::vector<Body> const &bodies)
   painting.pair_body.item = View<int *>("Harmos::paint::pair_body::item", num_items);
   painting.body_mass = View<double *>("Harmos::paint::body_mass", num_items);
 
-  auto const cell_area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_area);
+  auto const cell_volume = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_volume);
   auto const material = Kokkos::create_mirror_view(pairs.material);
   auto const cell = Kokkos::create_mirror_view(pairs.cell);
   auto const record = Kokkos::create_mirror_view(painting.record);
@@ -221,7 +223,7 @@ Painting paint(Mesh const &mesh, std::vector<Body> const &bodies)
     for (double const volume : filling.volume)
       clipped_volume += volume;
     // Normalised fractions decide: the bodies share the pair's volume as they were clipped.
-    double const share = filling.fraction * cell_area(cell(pair)) / clipped_volume;
+    double const share = filling.fraction * cell_volume(cell(pair)) / clipped_volume;
     double mass = 0.0;
     double specific_volume = 0.0;
     double internal_energy = 0.0;
@@ -309,7 +311,7 @@ PaintedRows rigidVolumes(Mesh const &mesh, std::vector<Shape> const &shapes, std
   std::vector<Box> boxes;
   for (Shape const &shape : shapes)
     boxes.push_back(shape.boundingBox());
-  RigidFillings const rows = fillRigid(candidateCells(mesh, boxes), shapes, boxes, materials);
+  RigidFillings const rows = fillRigid(candidateCells(mesh, boxes), mesh.geometry, shapes, boxes, materials);
 
   std::size_t const count = rows.cell.size();
   PaintedRows result{offsetsOf(rows.cell, mesh.num_cells), View<int *>("Harmos::rigid::material", count),

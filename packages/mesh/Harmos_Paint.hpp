@@ -39,10 +39,10 @@ struct Painting
   View<double *[num_pair_fields]> record; // Mass, VolumeFraction, SpecificVolume, InternalEnergy; the rest is zero
   View<double *[2]> centroid;             // of the filled region; of the cell where it is pure
   Rows pair_body;                         // pair -> the bodies that make it up, ascending
-  View<double *> body_mass;               // mass of each item of pair_body [kg/m]
+  View<double *> body_mass;               // mass of each item of pair_body [kg/m, or kg per radian]
 };
 
-/// Paint bodies into exact volume fractions of all local cells (halo cells alike).
+/// Paint bodies into exact volume fractions of all local cells (halo cells alike), by the mesh's geometry.
 ///
 /// Region of body i: shape_i without the shapes of all later bodies that are cut from earlier ones.
 /// Fractions below 1e-14 make no pair; a cell whose fractions sum to one within 1e-13 sums to one exactly (a lone pair

@@ -3,7 +3,6 @@
 #define HARMOS_CELL_COMPONENTS_HPP
 
 #include <Harmos_CellMaterialPairs.hpp>
-#include <Harmos_Moments.hpp>
 
 namespace Harmos
 {
@@ -43,13 +42,15 @@ KOKKOS_INLINE_FUNCTION double volumeFraction(CellMaterialPairs const &pairs,
 }
 
 /// The components of a mixed cell (its materials, ascending, then void where there is some) in the cell's own
-/// coordinates xi = (x - corner) / size, size^2 = cell area: there the cell has unit area and digits stay.
+/// coordinates xi = (x - corner) / size, size^2 = cell area: there the cell has unit area and digits stay. Its weighted
+/// volume there is one as well.
 struct CellComponents
 {
   int cell;
-  Vector2 corner; // the cell's node 0 [length]
-  double size;    // [length]
-  Region polygon; // the cell; area 1
+  Vector2 corner;    // the cell's node 0 [length]
+  double size;       // [length]
+  Region polygon;    // the cell; area 1
+  AreaWeight weight; // at points xi; axisymmetric: the radius over the cell's mean radius
   int count;
   int material[max_components];
   double volume[max_components];    // volume fractions
@@ -59,6 +60,17 @@ struct CellComponents
   KOKKOS_INLINE_FUNCTION bool holds(ComponentSet set, int k) const { return (set >> k) & 1u; }
   KOKKOS_INLINE_FUNCTION Vector2 toUnit(Vector2 const &x) const { return (1.0 / size) * (x - corner); }
   KOKKOS_INLINE_FUNCTION Vector2 fromUnit(Vector2 const &xi) const { return corner + size * xi; }
+
+  /// Weighted moments of a region about its first vertex.
+  KOKKOS_INLINE_FUNCTION Moments<1> momentsOf(Region const &region) const
+  {
+    return moments<1>(region, region[0], {weight.at(region[0]), weight.slope});
+  }
+
+  KOKKOS_INLINE_FUNCTION double volumeOfRegion(Region const &region) const
+  {
+    return weight.uniform() || region.empty() ? area(region) : momentsOf(region).volume();
+  }
 
   KOKKOS_INLINE_FUNCTION double volumeOf(ComponentSet set) const
   {
@@ -115,6 +127,11 @@ KOKKOS_INLINE_FUNCTION CellComponents cellComponents(ReconstructionField const &
   c.size = Math::sqrt(area(quad));
   for (int k = 0; k < 4; ++k)
     c.polygon.push(c.toUnit(quad[k]));
+  if (field.mesh.geometry == Geometry::Axisymmetric)
+  {
+    double const per_mean_radius = area(quad) / volume(quad, Geometry::Axisymmetric);
+    c.weight = {per_mean_radius * c.corner[0], per_mean_radius * c.size};
+  }
   c.count = 0;
   double filled = 0.0;
   Vector2 first{0.0, 0.0};
@@ -139,7 +156,7 @@ KOKKOS_INLINE_FUNCTION CellComponents cellComponents(ReconstructionField const &
     c.centroid[k] = {0.0, 0.0};
     if (with_centroids)
     {
-      Moments<1> const m = moments<1>(c.polygon, c.polygon[0]);
+      Moments<1> const m = c.momentsOf(c.polygon); // its first vertex is the origin of xi
       c.centroid[k] = (1.0 / c.volume[k]) * (Vector2{m.first(0), m.first(1)} - first);
     }
   }

@@ -12,9 +12,17 @@ namespace Harmos
 struct NeighbourPack
 {
   Pack x[4], y[4]; // corners
-  Pack area;
+  Pack volume;
   Pack present; // 1, or 0 where there is no neighbour: such a lane repeats another one
 };
+
+/// Volume of a quadrilateral.
+KOKKOS_INLINE_FUNCTION double fullVolume(Quadrilateral const &quad, AreaWeight const &weight)
+{
+  if (weight.uniform())
+    return area(quad);
+  return moments<0>(quad, quad[0], {weight.at(quad[0]), weight.slope}).volume();
+}
 
 /// The vertex neighbours of a cell, in packs in the order of its row. Those of usual cells are stored.
 class CellNeighbours
@@ -31,6 +39,7 @@ public:
   }
 
   KOKKOS_INLINE_FUNCTION int count() const { return count_; }
+  KOKKOS_INLINE_FUNCTION AreaWeight const &weight() const { return components_.weight; }
   KOKKOS_INLINE_FUNCTION int packs() const { return numPacks(count_); }
 
   /// \param spare Takes a pack that is not stored.
@@ -72,7 +81,7 @@ private:
         row[2 * k][lane] = quad[k][0];
         row[2 * k + 1][lane] = quad[k][1];
       }
-      row[8][lane] = area(quad);
+      row[8][lane] = fullVolume(quad, components_.weight);
       row[9][lane] = p * pack_width + lane < count_ ? 1.0 : 0.0;
     }
     NeighbourPack n;
@@ -81,7 +90,7 @@ private:
       n.x[k] = loadPack(row[2 * k]);
       n.y[k] = loadPack(row[2 * k + 1]);
     }
-    n.area = loadPack(row[8]);
+    n.volume = loadPack(row[8]);
     n.present = loadPack(row[9]);
     return n;
   }

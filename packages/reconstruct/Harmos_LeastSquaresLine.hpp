@@ -18,6 +18,25 @@ struct LeastSquaresLine
 namespace Detail
 {
 
+/// Middle of a chord that is weighted along its length; its integral of the weight.
+struct WeightedChord
+{
+  double length;
+  Vector2 middle;
+};
+
+KOKKOS_INLINE_FUNCTION WeightedChord weightedChord(Vector2 const &begin, Vector2 const &end, AreaWeight const &weight)
+{
+  WeightedChord chord{norm(end - begin), 0.5 * (begin + end)};
+  if (weight.uniform())
+    return chord;
+  double const middle = weight.at(chord.middle);
+  if (middle > 0.0)
+    chord.middle += (weight.slope * (end[0] - begin[0]) / (12.0 * middle)) * (end - begin);
+  chord.length *= middle;
+  return chord;
+}
+
 /// Misfit of a line of given angle with exact volume in the own polygon, and its Gauss-Newton gradient and Hessian.
 struct LineMisfit
 {
@@ -48,10 +67,10 @@ struct LineFitProblem
   KOKKOS_INLINE_FUNCTION Pack fraction(int p) const { return p < CellNeighbours::stored_packs ? stored[p] : gather(p); }
 };
 
-/// What a line leaves of quadrilaterals: the area inside, and the rate at which it grows where the line turns.
+/// What a line leaves of quadrilaterals: the volume inside, and the rate at which it grows where the line turns.
 struct InsidePart
 {
-  Pack area, rate;
+  Pack volume, rate;
 };
 
 /// Without branches: with d the distances of the corners from the line, s their places along it (from the point about
@@ -61,8 +80,14 @@ struct InsidePart
 /// Turning by dtheta about the middle m of the own chord, which keeps the volume there, moves the chord (middle m_j,
 /// length L_j) of neighbour j so that its inside grows by L_j tau.(m - m_j) dtheta, tau = perpendicular(n): half the
 /// difference of the squares of its ends' places.
-KOKKOS_INLINE_FUNCTION InsidePart insidePart(NeighbourPack const &quad, Vector2 const &normal, Vector2 const &middle)
+///
+/// Weighted by w = w_m + slope x, x from m: each edge's part adds, with its ends p, q, their cross product times
+/// w_m / 2 + slope (x_p + x_q) / 6; the chord's ends add w_m s^2 / 2 + slope tau_x s^3 / 3 to the rate.
+KOKKOS_INLINE_FUNCTION InsidePart insidePart(NeighbourPack const &quad, Vector2 const &normal, Vector2 const &middle,
+                                             AreaWeight const &weight)
 {
+  bool const uniform = weight.uniform();
+  Pack const slope = weight.slope, mean = weight.at(middle);
   Pack const nx = normal[0], ny = normal[1], mx = middle[0], my = middle[1], zero = 0.0, one = 1.0;
   Pack d[4], s[4];
   for (int k = 0; k < 4; ++k)
@@ -80,11 +105,21 @@ KOKKOS_INLINE_FUNCTION InsidePart insidePart(NeighbourPack const &quad, Vector2 
     Pack const crosses = select(leaves, one, select(enters, one, zero));
     Pack const t = d[k] / select(crosses > zero, Pack(d[k] - d[b]), one);
     Pack const inside = select(a_inside, select(b_inside, one, t), select(b_inside, Pack(one - t), zero));
-    part.area += inside * (d[k] * s[b] - s[k] * d[b]);
+    Pack const twice_area = inside * (d[k] * s[b] - s[k] * d[b]);
     Pack const place = s[k] + t * (s[b] - s[k]), square = place * place;
-    part.rate += select(leaves, square, select(enters, Pack(-square), zero));
+    if (uniform)
+    {
+      part.volume += twice_area;
+      part.rate += select(leaves, square, select(enters, Pack(-square), zero));
+      continue;
+    }
+    Pack const xa = select(a_inside, Pack(nx * d[k] - ny * s[k]), Pack(-(ny * place)));
+    Pack const xb = select(b_inside, Pack(nx * d[b] - ny * s[b]), Pack(-(ny * place)));
+    part.volume += twice_area * (mean + slope * (xa + xb) * (1.0 / 3.0));
+    Pack const gain = square * (mean - slope * ny * place * (2.0 / 3.0));
+    part.rate += select(leaves, gain, select(enters, Pack(-gain), zero));
   }
-  part.area = Pack(0.5) * part.area;
+  part.volume = Pack(0.5) * part.volume;
   part.rate = Pack(0.5) * part.rate;
   return part;
 }
@@ -92,18 +127,19 @@ KOKKOS_INLINE_FUNCTION InsidePart insidePart(NeighbourPack const &quad, Vector2 
 KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vector2 const &normal)
 {
   bool const cut_inside = problem.inside_volume <= problem.outside_volume;
-  LineCut const own = cut_inside ? lineCut(problem.polygon, normal, problem.inside_volume)
-                                 : lineCut(problem.polygon, -normal, problem.outside_volume);
-  Vector2 const middle = 0.5 * (own.begin + own.end);
+  AreaWeight const weight = problem.neighbours.weight();
+  LineCut const own = cut_inside ? lineCut(problem.polygon, normal, problem.inside_volume, weight)
+                                 : lineCut(problem.polygon, -normal, problem.outside_volume, weight);
+  Vector2 const middle = weightedChord(own.begin, own.end, weight).middle;
   Pack value = 0.0, gradient = 0.0, hessian = 0.0;
   NeighbourPack spare;
   for (int p = 0; p < problem.neighbours.packs(); ++p)
   {
     NeighbourPack const &quad = problem.neighbours.pack(p, spare);
-    InsidePart const part = insidePart(quad, normal, middle);
-    Pack const per_area = quad.present / quad.area;
-    Pack const residual = part.area * per_area - problem.fraction(p);
-    Pack const rate = part.rate * per_area;
+    InsidePart const part = insidePart(quad, normal, middle, weight);
+    Pack const per_volume = quad.present / quad.volume;
+    Pack const residual = part.volume * per_volume - problem.fraction(p);
+    Pack const rate = part.rate * per_volume;
     value += residual * residual;
     gradient += rate * residual;
     hessian += rate * rate;

@@ -2,7 +2,7 @@
 #ifndef HARMOS_LINE_CUT_HPP
 #define HARMOS_LINE_CUT_HPP
 
-#include <Harmos_Moments.hpp>
+#include <Harmos_AreaWeight.hpp>
 
 namespace Harmos
 {
@@ -16,6 +16,51 @@ struct LineCut
   bool converged; // false: the volume lies outside [0, |polygon|]; the chord is then at the nearer end
 };
 
+namespace Detail
+{
+
+/// Between two heights of a convex polygon: the chord's width and the weight at its middle, both linear in the height.
+struct WeightedSlab
+{
+  double height = 0.0, width_low = 0.0, width_high = 0.0, weight_low = 0.0, weight_high = 0.0;
+
+  /// Weighted volume of the lower `part`, from 0 to 1.
+  KOKKOS_INLINE_FUNCTION double volumeBelow(double part) const
+  {
+    double const dw = width_high - width_low, dg = weight_high - weight_low;
+    return height * part *
+           (width_low * weight_low +
+            part * (0.5 * (dw * weight_low + dg * width_low) + part * (dw * dg * (1.0 / 3.0))));
+  }
+
+  /// The part below which a volume lies, 0 < volume <= volumeBelow(1): Newton's method, by bisection where it leaves
+  /// the bracket. Ends where the volume is met to round-off or the bracket closed.
+  KOKKOS_INLINE_FUNCTION double partOf(double volume) const
+  {
+    constexpr int max_iterations = 100;
+    double low = 0.0, high = 1.0;
+    double part = volume / volumeBelow(1.0);
+    for (int i = 0; i < max_iterations; ++i)
+    {
+      double const excess = volumeBelow(part) - volume;
+      if (Math::fabs(excess) <= 1e-16 * volume)
+        return part;
+      (excess > 0.0 ? high : low) = part;
+      double const slope =
+          height * (width_low + part * (width_high - width_low)) * (weight_low + part * (weight_high - weight_low));
+      double next = slope > 0.0 ? part - excess / slope : 0.5 * (low + high);
+      if (!(next > low && next < high))
+        next = 0.5 * (low + high);
+      if (next == part || next == low || next == high)
+        return next;
+      part = next;
+    }
+    return part;
+  }
+};
+
+} // namespace Detail
+
 /// The chord of given normal that cuts a given volume off a convex polygon: V(d) = |polygon ∩ {n.x <= d}| = volume.
 ///
 /// Closed form: between vertices, taken upwards along n on both chains at once, the chord's length w is linear and V
@@ -23,13 +68,18 @@ struct LineCut
 /// cancellation. Heights count from the lowest vertex, so a small volume keeps its relative accuracy: cut the smaller
 /// part and take the other as the complement.
 ///
+/// With a weight that is linear in x[0], V is a cubic between vertices: it is the integral of width times the weight at
+/// the chord's middle, a quadratic, for which Simpson's rule is exact; its root by Newton's method within a bracket.
+///
 /// \param polygon Convex, counter-clockwise, at least 3 vertices. [length]
 /// \param normal  Unit vector that leaves the part of given volume.
-/// \param volume  In [0, |polygon|]. [length^2]
+/// \param volume  In [0, |polygon|], weighted. [length^2]
+/// \param weight  Of area elements, >= 0 on the polygon, at points as the polygon's.
 ///
 /// Scardovelli & Zaleski, J. Comput. Phys. 164 (2000) 228-237 for squares; here any convex polygon.
 template <int Capacity>
-KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume)
+KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
+                                       AreaWeight const &weight = {})
 {
   int const size = polygon.size;
   int low = 0;
@@ -64,18 +114,31 @@ KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2
   // `right` climbs counter-clockwise, `left` clockwise; both are at or below `level`, the vertices after them above it.
   int right = low, left = low;
   double level = 0.0, width = 0.0, below = 0.0;
+  bool const uniform = weight.uniform();
   bool converged = volume >= 0.0;
   for (int step = 0; step < 2 * size; ++step)
   {
     int const right_next = next(right), left_next = previous(left);
     double const top = Math::max(level, Math::min(s[right_next], s[left_next]));
-    double const width_top = Math::max(0.0, at(left, left_next, top) - at(right, right_next, top));
-    double const slab = 0.5 * (width + width_top) * (top - level);
+    double const end_left = at(left, left_next, top), end_right = at(right, right_next, top);
+    double const width_top = Math::max(0.0, end_left - end_right);
+    Detail::WeightedSlab weighted;
+    if (!uniform)
+    {
+      double const middle = 0.5 * (at(left, left_next, level) + at(right, right_next, level));
+      double const middle_top = 0.5 * (end_left + end_right);
+      weighted =
+          Detail::WeightedSlab{top - level, width, width_top, weight.at(polygon[low] + level * normal + middle * along),
+                               weight.at(polygon[low] + top * normal + middle_top * along)};
+    }
+    double const slab = uniform ? 0.5 * (width + width_top) * (top - level) : weighted.volumeBelow(1.0);
     if (below + slab >= volume || top >= highest)
     {
       double const missing = Math::min(Math::max(0.0, volume - below), slab);
       converged = converged && volume <= (below + slab) * (1.0 + 1e-13) + 1e-300;
-      if (missing > 0.0)
+      if (missing > 0.0 && !uniform)
+        level = Math::min(top, level + (top - level) * weighted.partOf(missing));
+      else if (missing > 0.0)
       {
         double const slope = (width_top - width) / (top - level);
         double const root = Math::sqrt(Math::max(0.0, width * width + 2.0 * slope * missing));
@@ -166,13 +229,14 @@ struct Division
 
 /// Divide a convex polygon by a line of given normal into given volumes; the smaller part is the one that is cut.
 ///
-/// \param inside_volume, outside_volume Their sum is the polygon's volume, to round-off. [length^2]
+/// \param inside_volume, outside_volume Their sum is the polygon's (weighted) volume, to round-off. [length^2]
 KOKKOS_INLINE_FUNCTION Division divide(Region const &polygon, Vector2 const &normal, double inside_volume,
-                                       double outside_volume)
+                                       double outside_volume, AreaWeight const &weight = {})
 {
   Division division;
   bool const cut_inside = inside_volume <= outside_volume;
-  LineCut const cut = cut_inside ? lineCut(polygon, normal, inside_volume) : lineCut(polygon, -normal, outside_volume);
+  LineCut const cut =
+      cut_inside ? lineCut(polygon, normal, inside_volume, weight) : lineCut(polygon, -normal, outside_volume, weight);
   division.inside = cut_inside ? partBelow(polygon, cut) : partAbove(polygon, cut);
   division.outside = cut_inside ? partAbove(polygon, cut) : partBelow(polygon, cut);
   division.chord_begin = cut.begin;

@@ -19,16 +19,44 @@ struct MomentOfFluidLine
 namespace Detail
 {
 
-/// Centroid of a cut and the rate dx/dtheta = -tau L^3 / (12 V) at which it moves along the chord when the line turns
-/// by theta about the chord's midpoint, which keeps the volume.
+/// Centroid of a cut and the rate dx/dtheta = -tau I / V at which it moves along the chord when the line turns by theta
+/// about the chord's (weighted) middle, which keeps the volume; I = integral of w s^2 ds along the chord about that
+/// middle, L^3 / 12 for the weight one.
 struct TurningCut
 {
   Vector2 centroid;
-  double rate; // L^3 / (12 V)
+  double rate; // I / V
 };
 
-KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 const &normal, double volume)
+/// With the weight w = w_m + k s along the chord, s from its midpoint: the integrals of w, w s, w s^2 are w_m L,
+/// k L^3 / 12, w_m L^3 / 12.
+KOKKOS_INLINE_FUNCTION TurningCut weightedTurningCut(Region const &polygon, Vector2 const &normal, double volume,
+                                                     AreaWeight const &weight)
 {
+  LineCut const cut = lineCut(polygon, normal, volume, weight);
+  Region const part = partBelow(polygon, cut);
+  AreaWeight const from_begin{weight.at(cut.begin), weight.slope};
+  Moments<1> const m = moments<1>(part, cut.begin, from_begin);
+  TurningCut result{cut.begin, 0.0};
+  if (m.volume() > 0.0)
+  {
+    Vector2 const chord = cut.end - cut.begin;
+    double const length = norm(chord), cubed = length * length * length * (1.0 / 12.0);
+    double const middle = weight.at(0.5 * (cut.begin + cut.end));
+    double const slope = length > 0.0 ? weight.slope * chord[0] / length : 0.0;
+    double const first = slope * cubed;
+    double const about_middle = middle * cubed - (middle * length > 0.0 ? first * first / (middle * length) : 0.0);
+    result.centroid += m.centroid();
+    result.rate = about_middle / m.volume();
+  }
+  return result;
+}
+
+KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 const &normal, double volume,
+                                             AreaWeight const &weight)
+{
+  if (!weight.uniform())
+    return weightedTurningCut(polygon, normal, volume, weight);
   LineCut const cut = lineCut(polygon, normal, volume);
   // Moments about the chord's begin, whose own edges add nothing: once around from the chord's end.
   double twice_area = 0.0;
@@ -55,10 +83,10 @@ KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 cons
 }
 
 /// A local minimum of |x(theta) - c|^2 from a given direction. Stationary where g = (x - c).tau = 0, tau along the
-/// chord; g' = -L^3/(12 V) - (x - c).n. Newton's method, kept inside the bracket g(low) > 0 > g(high) by bisection. It
+/// chord; g' = -I/V - (x - c).n. Newton's method, kept inside the bracket g(low) > 0 > g(high) by bisection. It
 /// ends with a step whose square is round-off: that one needs no further cut.
 KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vector2 const &start, double volume,
-                                                      Vector2 const &reference)
+                                                      Vector2 const &reference, AreaWeight const &weight)
 {
   constexpr int max_iterations = 60;
   constexpr double tolerance = 4e-16; // of the unit cell: the round-off of the centroid
@@ -70,7 +98,7 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
   for (int i = 0; i < max_iterations; ++i)
   {
     line.normal = Math::cos(theta) * start + Math::sin(theta) * start_along;
-    TurningCut const cut = turningCut(polygon, line.normal, volume);
+    TurningCut const cut = turningCut(polygon, line.normal, volume, weight);
     Vector2 const miss = cut.centroid - reference;
     line.centroid = cut.centroid;
     line.squared_error = dot(miss, miss);
@@ -117,16 +145,20 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
 /// \param polygon   In coordinates in which the cell has unit area and lies near the origin.
 /// \param volume    Of the part, in (0, |polygon|).
 /// \param reference c, the part's given centroid.
+/// \param weight    Of area elements; volume and centroids are weighted with it.
 ///
 /// Dyadechko & Shashkov, J. Comput. Phys. 227 (2008) 5361-5384; derivative by Lemoine et al., J. Comput. Phys. 330
 /// (2017) 1-14 in this notation.
 KOKKOS_INLINE_FUNCTION MomentOfFluidLine momentOfFluidLine(Region const &polygon, double volume,
-                                                           Vector2 const &reference)
+                                                           Vector2 const &reference, AreaWeight const &weight = {})
 {
   double const small_residual = 1e-4 * volume; // a hundredth of the part's size, squared
   Moments<2> const m = moments<2>(polygon, polygon[0]);
   Vector2 const centroid = m.centroid();
-  Vector2 const towards = polygon[0] + centroid - reference;
+  Vector2 towards = polygon[0] + centroid - reference;
+  if (!weight.uniform())
+    towards =
+        polygon[0] + moments<1>(polygon, polygon[0], {weight.at(polygon[0]), weight.slope}).centroid() - reference;
   double const sxx = m.second(0, 0) / m.volume() - centroid[0] * centroid[0];
   double const sxy = m.second(0, 1) / m.volume() - centroid[0] * centroid[1];
   double const syy = m.second(1, 1) / m.volume() - centroid[1] * centroid[1];
@@ -136,10 +168,10 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine momentOfFluidLine(Region const &polygon
   Vector2 scaled = normalised(Vector2{syy * towards[0] - sxy * towards[1], sxx * towards[1] - sxy * towards[0]});
   if (dot(scaled, scaled) == 0.0)
     scaled = plain;
-  MomentOfFluidLine line = Detail::localMinimum(polygon, scaled, volume, reference);
+  MomentOfFluidLine line = Detail::localMinimum(polygon, scaled, volume, reference, weight);
   if (line.squared_error > small_residual)
   {
-    MomentOfFluidLine const second = Detail::localMinimum(polygon, plain, volume, reference);
+    MomentOfFluidLine const second = Detail::localMinimum(polygon, plain, volume, reference, weight);
     int const iterations = line.iterations + second.iterations;
     bool const converged = line.converged && second.converged;
     if (second.squared_error < line.squared_error - 1e-20)

@@ -65,11 +65,12 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
     rest &= ~(1u << k);
     if (rest != 0u)
     {
-      Division const division = divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest));
+      Division const division =
+          divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight);
       part = division.inside;
       polygon = division.outside;
     }
-    double const error = Math::fabs(area(part) - components.volume[k]);
+    double const error = Math::fabs(components.volumeOfRegion(part) - components.volume[k]);
     if (!(error <= status.volume_error))
     {
       status.volume_error = error;

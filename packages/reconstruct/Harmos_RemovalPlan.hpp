@@ -51,14 +51,14 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
   Vector2 const centroid = (1.0 / volume) * components.firstMomentOf(cut_inside ? inside : outside);
   if (volume < sliver)
   {
-    Vector2 const middle = polygon[0] + moments<1>(polygon, polygon[0]).centroid();
+    Vector2 const middle = polygon[0] + components.momentsOf(polygon).centroid();
     Vector2 fallback = normalised(cut_inside ? middle - centroid : centroid - middle);
     if (!(dot(fallback, fallback) > 0.5))
       fallback = {1.0, 0.0};
     LeastSquaresLine const line = leastSquaresLine(field, components, polygon, inside, outside, fallback);
     return {line.normal, 0.1 * volume * line.misfit, line.converged};
   }
-  MomentOfFluidLine const line = momentOfFluidLine(polygon, volume, centroid);
+  MomentOfFluidLine const line = momentOfFluidLine(polygon, volume, centroid, components.weight);
   return {cut_inside ? line.normal : -line.normal, 0.0, line.converged};
 }
 
@@ -70,7 +70,7 @@ KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, doub
 {
   if (components.volume[k] < sliver || region.empty())
     return 0.0;
-  Moments<1> const m = moments<1>(region, region[0]);
+  Moments<1> const m = components.momentsOf(region);
   Vector2 const first = Vector2{m.first(0), m.first(1)} + m.volume() * (region[0] - components.centroid[k]);
   return dot(first, first);
 }
@@ -92,7 +92,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, C
     plan.set(i, k, cut.normal);
     plan.unfinished += cut.converged ? 0 : 1;
     if (i + 2 < components.count)
-      polygon = divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest)).outside;
+      polygon =
+          divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight).outside;
   }
   plan.set(components.count - 1, order[components.count - 1], {1.0, 0.0});
   return plan;
@@ -135,7 +136,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     ComponentSet const others = rest[depth] & ~(1u << k);
     CutNormal const cut =
         cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon[depth], 1u << k, others);
-    Division const division = divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others));
+    Division const division =
+        divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others), components.weight);
     plan.unfinished += cut.converged ? 0 : 1;
     double total = error[depth] + cut.penalty + momentError(components, sliver, division.inside, k);
     int last = 0;
@@ -189,7 +191,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, 
           cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon, 1u << k, others);
       plan.unfinished += cut.converged ? 0 : 1;
       double const volume = components.volume[k];
-      Division const division = divide(polygon, cut.normal, volume, components.volumeOf(others));
+      Division const division = divide(polygon, cut.normal, volume, components.volumeOf(others), components.weight);
       double const error = (momentError(components, sliver, division.inside, k) + cut.penalty) / (volume * volume);
       if (error < least - 1e-20)
       {

@@ -140,6 +140,7 @@ void writeFieldFile(MPI_Comm comm, std::string const &path, ArrangedFields const
   file.writeAttribute("/", "format", 1);
   file.writeAttribute("/", "cycle", frame.cycle);
   file.writeAttribute("/", "time", frame.time);
+  file.writeAttribute("/", "axisymmetric", frame.axisymmetric);
   for (auto const &[name, value] :
        {std::pair("nodes", frame.nodes), std::pair("cells", frame.cells), std::pair("pairs", frame.pairs),
         std::pair("vertices", frame.vertices), std::pair("segments", frame.segments)})

@@ -47,7 +47,7 @@ CheckpointScalars scalarsOf(long long cycle)
   s.dt = std::numeric_limits<double>::denorm_min();
   s.material_names = {"copper", "anvil"};
   s.bodies.resize(2);
-  s.bodies[1] = {1, RigidMotion::Free, 2.0, 3.0, {0.1, 0.2}, 0.3, {-0.0, 5.0}, 0.7};
+  s.bodies[1] = {1, RigidMotion::Free, false, 2.0, 3.0, {0.1, 0.2}, 0.3, {-0.0, 5.0}, 0.7};
   s.ledger = {{"contact_loss", 1e-300}, {"external_work", 0.1}};
   s.arrays = {{"tracers", {1.0, 2.5}}, {"empty", {}}};
   s.deck = "mesh:\n  cells: [4, 3]\n" + std::string(100000, '#') + '\n';

@@ -119,11 +119,29 @@ TEST(DeckErrors, ImpossibleValue_showsTheRange)
   EXPECT_EQ(
       message({"kinematics=xfme"}),
       "deck.yaml: kinematics: \"xfme\" is not allowed; did you mean \"xfem\"?; expected: xfem | single | lagrangian");
-  EXPECT_EQ(message({"geometry=axisymmetric"}),
-            "deck.yaml: geometry: \"axisymmetric\" is not allowed; expected: planar");
+  EXPECT_EQ(message({"geometry=cylindrical"}),
+            "deck.yaml: geometry: \"cylindrical\" is not allowed; expected: planar | axisymmetric");
   EXPECT_STARTS(message({"boundaries/left/friction=0.1"}),
                 "deck.yaml: boundaries/left/friction: does not belong here, only where type = contact wall");
   EXPECT_HAS(message({"mesh/x/to=-3"}), "mesh/x/to: -3.0 is not above from = -2.0");
+}
+
+TEST(DeckErrors, WhatHasNoMeaningAboutAnAxis_isRefused)
+{
+  auto const about_axis = [](std::vector<std::string> more)
+  {
+    more.insert(more.begin(), {"geometry=axisymmetric", "bodies/patch/points=[3, 0, 3.5, 0, 3, 0.5]"});
+    return message(more);
+  };
+  std::string const from = "mesh/x/from=0", left = "boundaries/left/type=slip wall";
+  EXPECT_EQ(about_axis({}), "deck.yaml: mesh/x/from: -2.0 is a radius with geometry axisymmetric; expected: >= 0");
+  EXPECT_EQ(about_axis({from}), "deck.yaml: boundaries/left/type: the side is the axis with geometry "
+                                "axisymmetric and mesh/x/from 0; expected: slip wall");
+  EXPECT_EQ(about_axis({from, left, "gravity=[1, 0]"}),
+            "deck.yaml: gravity: it has a radial part with geometry axisymmetric; expected: [0, g]");
+  EXPECT_EQ(about_axis({from, left, "numerics/remap/order=3", "numerics/remap/swept_faces=false"}),
+            "deck.yaml: numerics/remap/order: 3 is planar with geometry axisymmetric; expected: 1 or 2");
+  EXPECT_HAS(about_axis({from, left}), "bodies/ring/angular_velocity: a ring does not turn with geometry axisymmetric");
 }
 
 TEST(DeckErrors, ShapesThatCannotBe_areRefused)

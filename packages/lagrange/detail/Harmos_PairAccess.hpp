@@ -178,7 +178,7 @@ struct StepLimits
 
 /// 1 / dt of a deformable pair: the larger of acoustic / courant and the travel's |v| / (largest_travel l).
 ///
-/// A full dof node has mass area / sv; light ones are left out of the travel.
+/// A full dof node has mass volume / sv; light ones are left out of the travel.
 KOKKOS_INLINE_FUNCTION double pairRate(CellMaterialPairs const &pairs, View<double *> const &dof_mass,
                                        StepLimits const &limits, int pair, Corners<double> const &v,
                                        StepGeometry<double> const &geometry, double acoustic, double specific_volume)
@@ -187,7 +187,7 @@ KOKKOS_INLINE_FUNCTION double pairRate(CellMaterialPairs const &pairs, View<doub
   double const scale = geometry.inverse_length_squared * limits.inverse_travel_squared;
   if (largestSpeedSquared(v) * scale <= rate * rate)
     return rate;
-  double const least_mass = limits.light_node * geometry.area / specific_volume;
+  double const least_mass = limits.light_node * geometry.volume / specific_volume;
   return Math::max(rate, Math::sqrt(largestHeavySpeedSquared(pairs, dof_mass, pair, v, least_mass) * scale));
 }
 
@@ -208,7 +208,7 @@ KOKKOS_FORCEINLINE_FUNCTION Pack pairRate(CellMaterialPairs const &pairs, View<d
       {
         if (!laneOf(travels, lane))
           return laneOf(rate, lane);
-        double const least_mass = limits.light_node * laneOf(geometry.area, lane) / laneOf(specific_volume, lane);
+        double const least_mass = limits.light_node * laneOf(geometry.volume, lane) / laneOf(specific_volume, lane);
         double const heavy = largestHeavySpeedSquared(pairs, dof_mass, pair[lane], detail::laneOf(v, lane), least_mass);
         return Math::max(laneOf(rate, lane), Math::sqrt(heavy * laneOf(scale, lane)));
       });

@@ -158,7 +158,8 @@ inline Material rigid()
 inline Scene makeScene(int nx, int ny, double distort, std::vector<Material> const &materials,
                        std::function<std::vector<Fill>(int i, int j)> const &contents,
                        Kinematics kinematics = Kinematics::Xfem,
-                       std::vector<BoundaryKind> const &kinds = std::vector<BoundaryKind>(4, BoundaryKind::Outflow))
+                       std::vector<BoundaryKind> const &kinds = std::vector<BoundaryKind>(4, BoundaryKind::Outflow),
+                       Geometry geometry = Geometry::Planar)
 {
   HostMesh host = rectilinearMesh(gradedCoordinates(0.0, nx, nx, 1.0), gradedCoordinates(0.0, ny, ny, 1.0));
   std::mt19937 random(7);
@@ -169,6 +170,7 @@ inline Scene makeScene(int nx, int ny, double distort, std::vector<Material> con
         coordinate += shift(random);
   Scene s;
   s.mesh = buildMesh(host);
+  setGeometry(s.mesh, geometry);
   s.materials = View<Material *>("materials", materials.size());
   auto const law = Kokkos::create_mirror_view(s.materials);
   for (std::size_t m = 0; m < materials.size(); ++m)
@@ -196,7 +198,7 @@ inline Scene makeScene(int nx, int ny, double distort, std::vector<Material> con
   auto const m = Kokkos::create_mirror_view(s.pairs.material);
   auto const c = Kokkos::create_mirror_view(s.pairs.cell);
   auto const r = Kokkos::create_mirror_view(s.state.record);
-  auto const area = onHost(s.mesh.cell_area);
+  auto const volume = onHost(s.mesh.cell_volume);
   for (std::size_t i = 0; i < offset.size(); ++i)
     o(i) = offset[i];
   for (int pair = 0; pair < n; ++pair)
@@ -204,7 +206,7 @@ inline Scene makeScene(int nx, int ny, double distort, std::vector<Material> con
     Material const &material = materials[fill[pair].material];
     m(pair) = fill[pair].material;
     c(pair) = cell[pair];
-    r(pair, Mass) = material.density0 * fill[pair].volume_fraction * area(cell[pair]);
+    r(pair, Mass) = material.density0 * fill[pair].volume_fraction * volume(cell[pair]);
     r(pair, VolumeFraction) = fill[pair].volume_fraction;
     r(pair, SpecificVolume) = 1.0 / material.density0;
   }

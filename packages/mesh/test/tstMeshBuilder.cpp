@@ -218,6 +218,29 @@ TEST(UpdateGeometry, nodesMovedByALinearMap_areasScaleByItsDeterminant)
     EXPECT_NEAR(after(c), 1.875 * old[c], 1e-14);
 }
 
+TEST(SetGeometry, unitSquareAboutTheAxis_hasTheVolumeOfACylinderPerRadian)
+{
+  Mesh mesh = buildMesh(rectilinearMesh(uniform(4), uniform(4)));
+  EXPECT_EQ(mesh.cell_volume.data(), mesh.cell_area.data());
+  setGeometry(mesh, Geometry::Axisymmetric);
+  EXPECT_NO_THROW(checkMesh(mesh));
+  auto const x = onHost(mesh.node_position);
+  double const width = x(mesh.num_nodes - 1, 0), height = x(mesh.num_nodes - 1, 1);
+  auto const volume = onHost(mesh.cell_volume);
+  double sum = 0.0;
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+    sum += volume(cell);
+  EXPECT_NEAR(sum, 0.5 * width * width * height, 1e-13 * sum);
+  setGeometry(mesh, Geometry::Planar);
+  EXPECT_EQ(mesh.cell_volume.data(), mesh.cell_area.data());
+}
+
+TEST(SetGeometry, nodesLeftOfTheAxis_areRefused)
+{
+  Mesh mesh = buildMesh(rectilinearMesh({-1e-9, 1.0, 2.0}, {0.0, 1.0}));
+  EXPECT_THROW(setGeometry(mesh, Geometry::Axisymmetric), std::runtime_error);
+}
+
 TEST(CountInvertedCells, middleNodePulledAcrossAnEdge_countsTheCellsThatFold)
 {
   Mesh mesh = buildMesh(rectilinearMesh(uniform(4), uniform(4)));

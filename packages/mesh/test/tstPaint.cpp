@@ -314,6 +314,30 @@ TEST(Paint, noBodies_giveNoPairs)
   EXPECT_EQ(0, onHost(painting.pairs.offset)(4));
 }
 
+TEST(Paint, ringsAboutAnAxis_haveTheVolumesAndMassesOfTheBodies)
+{
+  Mesh mesh = buildMesh(distortedSquare(16));
+  setGeometry(mesh, Geometry::Axisymmetric);
+  Shape const sphere = Shape::disc({0.0, 0.5}, 0.31), torus = Shape::disc({0.7, 0.4}, 0.2);
+  Painting const painting = paint(mesh, {makeBody(sphere, 0), makeBody(torus, 1)});
+  auto const material = onHost(painting.pairs.material);
+  auto const cell = onHost(painting.pairs.cell);
+  auto const record = onHost(painting.record);
+  auto const centroid = onHost(painting.centroid);
+  auto const cell_volume = onHost(mesh.cell_volume);
+  double volume[2] = {0.0, 0.0}, axial[2] = {0.0, 0.0};
+  for (int pair = 0; pair < painting.pairs.num_pairs; ++pair)
+  {
+    double const part = record(pair, VolumeFraction) * cell_volume(cell(pair));
+    volume[material(pair)] += part;
+    axial[material(pair)] += part * centroid(pair, 1);
+  }
+  EXPECT_NEAR(volume[0], 2.0 / 3.0 * 0.31 * 0.31 * 0.31, 1e-13);
+  EXPECT_NEAR(volume[1], Math::pi * 0.04 * 0.7, 1e-13);
+  EXPECT_NEAR(axial[0] / volume[0], 0.5, 1e-12);
+  EXPECT_NEAR(axial[1] / volume[1], 0.4, 1e-12);
+}
+
 TEST(RigidVolumes, movedBody_keepsItsVolumeAndCentroid)
 {
   Mesh const mesh = buildMesh(distortedSquare(16));

@@ -79,7 +79,7 @@ inline Mesh makeMesh(int nx, int ny, double h, double shake = 0.0, unsigned seed
 struct Fill
 {
   int material;
-  double volume; // [length^2]
+  double volume; // by the mesh's geometry
   Vector2 centroid;
 };
 
@@ -112,7 +112,7 @@ inline Scene paint(Mesh const &mesh, CellFills const &fills)
   for (int cell = 0; cell < mesh.num_cells; ++cell)
   {
     Quadrilateral const quad = hostQuadrilateral(x, node, cell);
-    double const whole = area(quad);
+    double const whole = volume(quad, mesh.geometry);
     int count = 0;
     bool pure = false;
     for (Fill const &fill : fills(cell, quad))
@@ -190,15 +190,15 @@ inline Region intersection(Polygon<Capacity> const &polygon, Body const &body)
 }
 
 /// Disjoint bodies; body m is material m.
-inline CellFills bodies(std::vector<Body> const &all)
+inline CellFills bodies(std::vector<Body> const &all, Geometry geometry = Geometry::Planar)
 {
-  return [all](int, Quadrilateral const &quad)
+  return [all, geometry](int, Quadrilateral const &quad)
   {
     std::vector<Fill> fills;
     for (std::size_t m = 0; m < all.size(); ++m)
     {
       Region const part = intersection(quad, all[m]);
-      Moments<1> const first = moments<1>(part, quad[0]);
+      Moments<1> const first = moments<1>(part, quad[0], areaWeight(geometry, quad[0]));
       if (first.volume() > 0.0)
         fills.push_back({static_cast<int>(m), first.volume(), quad[0] + first.centroid()});
     }

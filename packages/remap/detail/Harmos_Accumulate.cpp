@@ -9,10 +9,10 @@ namespace RemapDetail
 namespace
 {
 
-KOKKOS_INLINE_FUNCTION bool isFragment(Input const &in, Acceptors const &acceptors, int candidate, double cell_area)
+KOKKOS_INLINE_FUNCTION bool isFragment(Input const &in, Acceptors const &acceptors, int candidate, double cell_volume)
 {
   return !in.isRigid(acceptors.material(candidate)) &&
-         acceptors.sum(candidate, VolumeSum) < in.options.merge_below * cell_area;
+         acceptors.sum(candidate, VolumeSum) < in.options.merge_below * cell_volume;
 }
 
 struct AccumulateFunctor
@@ -83,7 +83,7 @@ struct AccumulateFunctor
     if (!inflowQuadrilateral(in, cell, face, boundary, q))
       return false;
     m = inflowMoments(in.mesh, acceptor, q);
-    return m.volume() > least_overlay * in.mesh.cell_area(acceptor);
+    return m.volume() > least_overlay * in.mesh.cell_volume(acceptor);
   }
 
   /// Whether a deformable material gets into a cell by an overlay or an inflow.
@@ -205,11 +205,11 @@ struct AccumulateFunctor
     if (row.full && acceptors.room == most_candidates && in.mesh.cell_depth(acceptor) == 0)
       bookings(index, BookFailures) += 1.0;
     full += row.full ? 1 : 0;
-    double const cell_area = in.mesh.cell_area(acceptor);
+    double const cell_volume = in.mesh.cell_volume(acceptor);
     for (int c = row.first; c < row.first + row.count; ++c)
     {
       acceptors.merge_to(c) = -1;
-      fragments += !verbatim && isFragment(in, acceptors, c, cell_area) ? 1 : 0;
+      fragments += !verbatim && isFragment(in, acceptors, c, cell_volume) ? 1 : 0;
     }
   }
 };
@@ -226,9 +226,9 @@ KOKKOS_INLINE_FUNCTION int mergeTarget(Input const &in, Classes const &classes, 
     int const neighbour = in.mesh.cell_neighbour.item(j);
     int const index = classes.interface_index(neighbour);
     int const candidate = index < 0 ? -1 : acceptors.find(index, material);
-    if (candidate < 0 || isFragment(in, acceptors, candidate, in.mesh.cell_area(neighbour)))
+    if (candidate < 0 || isFragment(in, acceptors, candidate, in.mesh.cell_volume(neighbour)))
       continue;
-    double const fraction = acceptors.sum(candidate, VolumeSum) / in.mesh.cell_area(neighbour);
+    double const fraction = acceptors.sum(candidate, VolumeSum) / in.mesh.cell_volume(neighbour);
     if (fraction > largest)
     {
       largest = fraction;
@@ -289,7 +289,7 @@ void mergeFragments(Input const &in, Classes const &classes, Acceptors const &ac
         int const cell = classes.interface_cell(i);
         for (int c = acceptors.begin(i); c < acceptors.end(i); ++c)
         {
-          bool const fragment = isFragment(in, acceptors, c, in.mesh.cell_area(cell));
+          bool const fragment = isFragment(in, acceptors, c, in.mesh.cell_volume(cell));
           int const target = fragment ? mergeTarget(in, classes, acceptors, cell, acceptors.material(c)) : -1;
           acceptors.merge_to(c) = target;
           if (target >= 0 && in.mesh.cell_depth(cell) == 0)

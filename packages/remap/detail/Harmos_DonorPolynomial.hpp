@@ -4,7 +4,7 @@
 
 #include <detail/Harmos_Donors.hpp>
 
-#include <Harmos_Moments.hpp>
+#include <Harmos_AreaWeight.hpp>
 #include <Harmos_Select.hpp>
 
 namespace Harmos
@@ -72,6 +72,7 @@ struct PolynomialFinder
 {
   using Polynomial = DonorPolynomial;
   using OverlayMoments = Moments<2>;
+  using PlaneMoments = Moments<2>; // what an overlay is integrated by
   static KOKKOS_INLINE_FUNCTION constexpr bool overlaysInPacks() { return true; }
 
   Input in;
@@ -80,6 +81,9 @@ struct PolynomialFinder
   Donors donors;
 
   KOKKOS_INLINE_FUNCTION static Polynomial constant(StageFields const &mean) { return constantPolynomial(mean); }
+
+  /// The moments of an overlay, plane ones about the donor's centroid at `radius` given.
+  KOKKOS_INLINE_FUNCTION static OverlayMoments const &measured(PlaneMoments const &m, double) { return m; }
 
   KOKKOS_INLINE_FUNCTION OverlayMoments wholeMoments(int donor, MovedVertices const &) const
   {
@@ -145,9 +149,9 @@ struct PolynomialFinder
       return false;
     int const pair = in.pairs.offset(cell);
     n.filled = 1.0;
-    n.centroid = areaCentroid(cellQuadrilateral(in.mesh, cell).vertex).centroid;
+    n.centroid = cellCentroid(in.mesh, cell);
     FieldPack record(&stage.record(pair, 0));
-    record.set<DensityField>(stage.record(pair, Mass) / in.mesh.cell_area(cell));
+    record.set<DensityField>(stage.record(pair, Mass) / in.mesh.cell_volume(cell));
     record.set<KineticField>(stage.kineticEnergy(in.pairs, pair));
     double corner[8];
     cornerVelocities(in.pairs, in.half, pair, corner);
@@ -315,6 +319,19 @@ struct PolynomialFinder
     result.y = g.y;
     result.mass_offset = e;
     return result;
+  }
+};
+
+/// The same where areas are weighted by the radius: rings.
+struct RingPolynomialFinder : PolynomialFinder
+{
+  using PlaneMoments = Moments<3>;
+  static KOKKOS_INLINE_FUNCTION constexpr bool overlaysInPacks() { return false; }
+
+  KOKKOS_INLINE_FUNCTION explicit RingPolynomialFinder(PolynomialFinder const &finder) : PolynomialFinder(finder) {}
+  KOKKOS_INLINE_FUNCTION static OverlayMoments measured(PlaneMoments const &m, double radius)
+  {
+    return weighted<2>(m, AreaWeight{radius, 1.0});
   }
 };
 

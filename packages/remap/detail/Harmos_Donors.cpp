@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_Donors.hpp>
 
-#include <Harmos_Moments.hpp>
+#include <Harmos_AreaWeight.hpp>
 
 namespace Harmos
 {
@@ -116,12 +116,13 @@ KOKKOS_INLINE_FUNCTION void setShape(Donors const &donors, int donor, double vol
 }
 
 /// A pure cell's moved region, or a part of a mixed cell: volume, centroid, central second moments.
-KOKKOS_INLINE_FUNCTION bool setMovedShape(Donors const &donors, int donor, Region const &region, double least_volume)
+KOKKOS_INLINE_FUNCTION bool setMovedShape(Donors const &donors, int donor, Geometry geometry, Region const &region,
+                                          double least_volume)
 {
   if (region.size < 3)
     return false;
   Vector2 const origin = region[0];
-  Moments<2> const m = moments<2>(region, origin);
+  Moments<2> const m = moments<2>(region, origin, areaWeight(geometry, origin));
   if (!(m.volume() > least_volume))
     return false;
   Vector2 const d = m.centroid();
@@ -136,14 +137,11 @@ KOKKOS_INLINE_FUNCTION bool setMovedShape(Donors const &donors, int donor, Regio
 KOKKOS_INLINE_FUNCTION void setStillShape(Input const &in, Donors const &donors, int donor, int pair)
 {
   int const cell = in.pairs.cell(pair);
-  double const cell_area = in.mesh.cell_area(cell);
+  double const cell_volume = in.mesh.cell_volume(cell);
   if (in.pairs.cell_kind(cell) == PureCell)
-  {
-    Quadrilateral const q = cellQuadrilateral(in.mesh, cell);
-    setShape(donors, donor, cell_area, areaCentroid(q.vertex).centroid);
-  }
+    setShape(donors, donor, cell_volume, cellCentroid(in.mesh, cell));
   else
-    setShape(donors, donor, in.state.record(pair, VolumeFraction) * cell_area,
+    setShape(donors, donor, in.state.record(pair, VolumeFraction) * cell_volume,
              in.carried(cell, {in.state.centroid(pair, 0), in.state.centroid(pair, 1)}));
 }
 
@@ -175,7 +173,7 @@ struct MoveFunctor
       moveRegion(in, cell, pair, c, region);
       if (isFolded(region))
         shiftRegion(in, cell, pair, c, region);
-      bool const sound = setMovedShape(donors, donor, region, 1e-15 * in.mesh.cell_area(cell));
+      bool const sound = setMovedShape(donors, donor, in.mesh.geometry, region, 1e-15 * in.mesh.cell_volume(cell));
       kind = sound ? MovingDonor : DegenerateDonor;
     }
     if (kind != MovingDonor)

@@ -91,6 +91,25 @@ KOKKOS_INLINE_FUNCTION Moments<2> momentsOfVertices<Moments<2>>(int size, double
   return m;
 }
 
+template <>
+KOKKOS_INLINE_FUNCTION Moments<3> momentsOfVertices<Moments<3>>(int size, double const *x, double const *y)
+{
+  Moments<2> const lower = momentsOfVertices<Moments<2>>(size, x, y);
+  Moments<3> m;
+  for (int i = 0; i < Moments<2>::count; ++i)
+    m.value[i] = lower.value[i];
+  Vector2 a{x[size - 1], y[size - 1]};
+  for (int i = 0; i < size; ++i)
+  {
+    Vector2 const b{x[i], y[i]}, middle = 0.5 * (a + b);
+    double const c = cross(a, b) * (1.0 / 30.0);
+    for (int k = 0; k < 4; ++k)
+      m.value[6 + k] += c * (cubic(a, k) + 4.0 * cubic(middle, k) + cubic(b, k));
+    a = b;
+  }
+  return m;
+}
+
 /// A cell's corners relative to a point. Coordinates one by one: pairs of them, written singly and read together, would
 /// stall the processor.
 struct Window

@@ -163,7 +163,7 @@ struct IntersectFunctor : Finder
 
   KOKKOS_INLINE_FUNCTION void takeIfAny(Donor &d, int slot, int acceptor, OverlayMoments const &m) const
   {
-    if (m.volume() > least_overlay * in.mesh.cell_area(acceptor))
+    if (m.volume() > least_overlay * in.mesh.cell_volume(acceptor))
       take(d, slot, acceptor, m);
   }
 
@@ -172,7 +172,8 @@ struct IntersectFunctor : Finder
   {
     bool whole = false;
     Window const w = windowAbout(in.mesh, acceptor, d.centroid);
-    OverlayMoments m = momentsInside<OverlayMoments, max_region_vertices>(v.size, v.x, v.y, w, whole);
+    OverlayMoments m = Finder::measured(
+        momentsInside<typename Finder::PlaneMoments, max_region_vertices>(v.size, v.x, v.y, w, whole), d.centroid[0]);
     if (whole)
       m = Finder::wholeMoments(d.number, v);
     takeIfAny(d, slot, acceptor, m);
@@ -243,7 +244,7 @@ struct IntersectFunctor : Finder
   /// A donor of which nothing is left above the threshold stays whole: its volume fraction at its old centroid.
   KOKKOS_INLINE_FUNCTION void makeWhole(Donor &d, int pair) const
   {
-    double const volume = in.state.record(pair, VolumeFraction) * in.mesh.cell_area(d.cell);
+    double const volume = in.state.record(pair, VolumeFraction) * in.mesh.cell_volume(d.cell);
     StageFields mean = loadStageFields(&donors.value(d.number, 0));
     mean.record.template set<DensityField>(mean.record[DensityField] * (d.volume / volume));
     d.polynomial = Finder::constant(mean);
@@ -269,18 +270,18 @@ struct IntersectFunctor : Finder
   /// Where the rest goes: through an outflow boundary, or to an acceptor (DonorHead::residue_slot).
   KOKKOS_INLINE_FUNCTION int placeRest(int index, Donor &d, int open) const
   {
-    double const area = in.mesh.cell_area(d.cell);
+    double const whole = in.mesh.cell_volume(d.cell);
     double const scale = d.rest_volume != 0.0 ? 1.0 / d.rest_volume : 0.0;
     Vector2 const outside = d.centroid + scale * d.rest_first;
     bool const owned = in.mesh.cell_depth(d.cell) == 0;
-    bool const left = (open & OutflowBit) != 0 && d.rest_volume > 1e-13 * area;
+    bool const left = (open & OutflowBit) != 0 && d.rest_volume > 1e-13 * whole;
     if (left && ((open & ContactBit) == 0 || leftThroughOutflow(in, d.cell, outside)))
     {
       if (owned)
         bookOutflow(index, d.rest);
       return -1;
     }
-    double const tolerance = 1e-10 * d.volume + 1e-14 * area;
+    double const tolerance = 1e-10 * d.volume + 1e-14 * whole;
     if (owned && Math::fabs(d.rest_volume) > tolerance && (open & (OutflowBit | ContactBit)) == 0 &&
         !curvedWallAround(in, d.cell))
     {
@@ -349,6 +350,9 @@ void intersect(Input const &in, Classes const &classes, StageState const &stage,
   if (in.options.order == 3)
     Kokkos::parallel_for("Harmos::remap::intersect", range,
                          IntersectFunctor<QuadraticFinder>(QuadraticFinder(finder), overlays, bookings));
+  else if (in.mesh.geometry == Geometry::Axisymmetric)
+    Kokkos::parallel_for("Harmos::remap::intersect", range,
+                         IntersectFunctor<RingPolynomialFinder>(RingPolynomialFinder(finder), overlays, bookings));
   else
     Kokkos::parallel_for("Harmos::remap::intersect", range,
                          IntersectFunctor<PolynomialFinder>(finder, overlays, bookings));

@@ -103,7 +103,7 @@ struct FinishFunctor
       for (int f = 0; f < num_pair_fields; ++f)
         acceptors.record(c, f) = 0.0;
       acceptors.record(c, VolumeFraction) = fraction;
-      acceptors.record(c, Mass) = law.density0 * fraction * in.mesh.cell_area(cell);
+      acceptors.record(c, Mass) = law.density0 * fraction * in.mesh.cell_volume(cell);
       acceptors.record(c, SpecificVolume) = 1.0 / law.density0;
       acceptors.kinetic(c) = 0.0;
       for (int d = 0; d < 2; ++d)
@@ -131,12 +131,12 @@ struct FinishFunctor
   /// The volume that the deformable materials get, and whether the cell is full then.
   KOKKOS_INLINE_FUNCTION double share(int index, int cell, double deformable, double rigid, bool &full) const
   {
-    double const cell_area = in.mesh.cell_area(cell);
-    double const available = Math::max(cell_area - rigid, deformable > 0.0 ? least_share * cell_area : 0.0);
+    double const cell_volume = in.mesh.cell_volume(cell);
+    double const available = Math::max(cell_volume - rigid, deformable > 0.0 ? least_share * cell_volume : 0.0);
     double const gap = available - deformable;
     bool const owned = in.mesh.cell_depth(cell) == 0;
     full = true;
-    if (Math::fabs(gap) <= full_tolerance * cell_area)
+    if (Math::fabs(gap) <= full_tolerance * cell_volume)
       return available;
     if (gap < 0.0)
     {
@@ -145,7 +145,7 @@ struct FinishFunctor
       return available;
     }
     bool const spurious = !voidAround(cell);
-    if (spurious && deformable > 0.0 && gap < in.options.close_void_below * cell_area)
+    if (spurious && deformable > 0.0 && gap < in.options.close_void_below * cell_volume)
     {
       if (owned)
         bookings(index, BookClosed) += gap;
@@ -165,7 +165,7 @@ struct FinishFunctor
       setVerbatim(index, cell);
       return;
     }
-    double const cell_area = in.mesh.cell_area(cell);
+    double const cell_volume = in.mesh.cell_volume(cell);
     double deformable = 0.0, rigid = 0.0;
     for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
     {
@@ -174,7 +174,7 @@ struct FinishFunctor
       if (in.isRigid(acceptors.material(c)))
       {
         setRigid(c, cell);
-        rigid += acceptors.record(c, VolumeFraction) * cell_area;
+        rigid += acceptors.record(c, VolumeFraction) * cell_volume;
       }
       else
       {
@@ -184,10 +184,10 @@ struct FinishFunctor
     }
     bool full;
     double const volume = share(index, cell, deformable, rigid, full);
-    double const per_area = deformable > 0.0 ? volume / (deformable * cell_area) : 0.0;
+    double const per_volume = deformable > 0.0 ? volume / (deformable * cell_volume) : 0.0;
     for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
       if (kept(c) && !in.isRigid(acceptors.material(c)))
-        acceptors.record(c, VolumeFraction) = acceptors.sum(c, VolumeSum) * per_area;
+        acceptors.record(c, VolumeFraction) = acceptors.sum(c, VolumeSum) * per_volume;
     if (full)
       makeFull(index);
   }

@@ -49,6 +49,9 @@ struct QuadraticFinder : PolynomialFinder
 {
   using Polynomial = QuadraticPolynomial;
   using OverlayMoments = QuarticMoments;
+  using PlaneMoments = QuarticMoments;
+
+  KOKKOS_INLINE_FUNCTION static OverlayMoments const &measured(PlaneMoments const &m, double) { return m; }
   static KOKKOS_INLINE_FUNCTION constexpr bool overlaysInPacks() { return false; }
 
   KOKKOS_INLINE_FUNCTION explicit QuadraticFinder(PolynomialFinder const &finder) : PolynomialFinder(finder) {}

@@ -88,6 +88,13 @@ KOKKOS_INLINE_FUNCTION AreaCentroid areaCentroid(Vector2 const x[4])
   return {area, x[0] + (1.0 / area) * first};
 }
 
+/// Where the volume of a cell of the target mesh balances.
+KOKKOS_INLINE_FUNCTION Vector2 cellCentroid(Mesh const &mesh, int cell)
+{
+  Quadrilateral const q = cellQuadrilateral(mesh, cell);
+  return mesh.geometry == Geometry::Planar ? areaCentroid(q.vertex).centroid : volumeCentroid(q, mesh.geometry);
+}
+
 /// Radial return of a deviator to the yield surface sqrt(3 J2) <= yield + hardening eps; zero without strength.
 KOKKOS_INLINE_FUNCTION void returnToYield(Material const &law, double *record)
 {

@@ -55,13 +55,62 @@ KOKKOS_FORCEINLINE_FUNCTION Swept sweptWhole(PackedVector const &edge, PackedVec
   return {select(leaves, volume, Pack(0.0)), along * edge + across * (u_a + u_b)};
 }
 
+/// sweptWhole for rings, a at mid-step at `radius`. With V and F its plane volume and first moment about a, the plane
+/// second moments are, c = u_a x u_b and xy standing for (x y + y x) / 2 (points s E + t (u_a + s (u_b - u_a)),
+/// Jacobian d_a + s (d_b - d_a) + t c, 0 < s < 1, |t| < 1/2): S = EE (d_a + 3 d_b) / 12 + c E(u_a + 2 u_b) / 36
+///   + ((3 d_a + d_b) u_a u_a + 2 (d_a + d_b) u_a u_b + (d_a + 3 d_b) u_b u_b) / 144;
+/// the volume is radius V + F_x, its first moment radius F + S_x. Zero without motion, to the bit.
+KOKKOS_FORCEINLINE_FUNCTION Swept sweptRing(Pack const &radius, PackedVector const &edge, PackedVector const &u_a,
+                                            PackedVector const &u_b, Pack const &d_a, Pack const &d_b)
+{
+  Pack const area = 0.5 * (d_a + d_b);
+  Pack const turn = cross(u_a, u_b);
+  PackedVector const first = Pack((d_a + 2.0 * d_b) * (1.0 / 6.0)) * edge + Pack(turn * (1.0 / 24.0)) * (u_a + u_b);
+  PackedVector const later = u_a + Pack(2.0) * u_b;
+  Pack const ee = (d_a + 3.0 * d_b) * (1.0 / 12.0), eu = turn * (1.0 / 72.0);
+  Pack const aa = (3.0 * d_a + d_b) * (1.0 / 144.0), ab = (d_a + d_b) * (1.0 / 144.0), bb = ee * (1.0 / 12.0);
+  Pack const xx = ee * edge.x * edge.x + 2.0 * eu * edge.x * later.x + aa * u_a.x * u_a.x + 2.0 * ab * u_a.x * u_b.x +
+                  bb * u_b.x * u_b.x;
+  Pack const xy = ee * edge.x * edge.y + eu * (edge.x * later.y + edge.y * later.x) + aa * u_a.x * u_a.y +
+                  ab * (u_a.x * u_b.y + u_a.y * u_b.x) + bb * u_b.x * u_b.y;
+  Pack const volume = radius * area + first.x;
+  auto const leaves =
+      volume > Math::max(Pack(1e-280), Pack(1e-14 * Math::fabs(d_a - d_b) * (radius + Math::fabs(edge.x))));
+  Pack const per_volume = select(leaves, Pack(1.0), Pack(0.0)) / select(leaves, volume, Pack(1.0));
+  return {select(leaves, volume, Pack(0.0)), per_volume * PackedVector{radius * first.x + xx, radius * first.y + xy}};
+}
+
+/// Per radian: integrals of r and of r x over triangles, x from some base at radius `base`. Over one of area A,
+/// A (sum r_i) / 3 and A ((sum r_i) (sum x_i) + sum r_i x_i) / 12.
+struct RingSum
+{
+  Pack base;
+  Pack volume = 0.0;
+  PackedVector first = {Pack(0.0), Pack(0.0)};
+
+  KOKKOS_FORCEINLINE_FUNCTION explicit RingSum(Pack const &radius) : base(radius) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION void add(Pack const &area, PackedVector const &a, PackedVector const &b,
+                                       PackedVector const &c)
+  {
+    Pack const ra = base + a.x, rb = base + b.x, rc = base + c.x;
+    Pack const sum = ra + rb + rc;
+    volume += area * sum * (1.0 / 3.0);
+    Pack const twelfth = area * (1.0 / 12.0);
+    first.x += twelfth * (sum * (a.x + b.x + c.x) + (ra * a.x + rb * b.x + rc * c.x));
+    first.y += twelfth * (sum * (a.y + b.y + c.y) + (ra * a.y + rb * b.y + rc * c.y));
+  }
+};
+
 /// Where the edges before and after cross, in a point p, one of the triangles between them leaves the cell and the
 /// other enters it: each has its own donor. At mid-step the crossing is the part alpha = d_a / (d_a - d_b) along the
 /// edge; before and after it is half of delta = -w.E / E.E apart, w the motion there:
 /// p = alpha E + delta (u_b - u_a) / 4, V_a = (alpha^2 - delta^2/4) (d_a - d_b) / 2, V_b likewise with 1 - alpha.
-KOKKOS_FORCEINLINE_FUNCTION void splitWhereEdgesCross(PackedVector const &edge, PackedVector const &u_a,
-                                                      PackedVector const &u_b, Pack const &d_a, Pack const &d_b,
-                                                      Swept &swept)
+/// `radius` is that of a at mid-step.
+template <Geometry geometry>
+KOKKOS_FORCEINLINE_FUNCTION void splitWhereEdgesCross(Pack const &radius, PackedVector const &edge,
+                                                      PackedVector const &u_a, PackedVector const &u_b, Pack const &d_a,
+                                                      Pack const &d_b, Swept &swept)
 {
   auto const opposite = d_a * d_b < Pack(0.0);
   if (!any(opposite))
@@ -77,12 +126,26 @@ KOKKOS_FORCEINLINE_FUNCTION void splitWhereEdgesCross(PackedVector const &edge, 
   PackedVector const p = alpha * edge + Pack(0.25 * delta) * (u_b - u_a);
   auto const at_a = d_a > Pack(0.0);
   Pack const volume = 0.5 * Math::fabs(difference) * select(at_a, part_a, part_b);
+  if constexpr (geometry == Geometry::Axisymmetric)
+  {
+    // one corner is the crossing, the others are the end before and after
+    Pack const end = select(at_a, Pack(0.0), Pack(1.0)), start = Pack(1.0) - end;
+    PackedVector const half = Pack(0.5) * (start * u_a + end * u_b), at = end * edge;
+    RingSum sum(radius);
+    sum.add(select(crosses, volume, Pack(0.0)), p, at + half, at - half);
+    Pack const per_volume = 1.0 / select(crosses, sum.volume, Pack(1.0));
+    swept.volume = select(crosses, sum.volume, swept.volume);
+    swept.centre = {select(crosses, Pack(per_volume * sum.first.x), swept.centre.x),
+                    select(crosses, Pack(per_volume * sum.first.y), swept.centre.y)};
+    return;
+  }
   Pack const third = 1.0 / 3.0, end = select(at_a, Pack(0.0), Pack(2.0));
   PackedVector const centre = third * (p + end * edge);
   swept.volume = select(crosses, volume, swept.volume);
   swept.centre = {select(crosses, centre.x, swept.centre.x), select(crosses, centre.y, swept.centre.y)};
 }
 
+template <Geometry geometry>
 struct SweptGeometryFunctor
 {
   SweptStage stage;
@@ -120,6 +183,37 @@ struct SweptGeometryFunctor
     compute(cell, pair, flags, common, lanes);
   }
 
+  struct Volume
+  {
+    Pack volume, inverse;
+    PackedVector centroid;
+  };
+
+  KOKKOS_FORCEINLINE_FUNCTION static Volume volumeOf(PackedVector const (&moved)[4])
+  {
+    PackedVector const d1 = moved[1] - moved[0];
+    PackedVector const d2 = moved[2] - moved[0];
+    PackedVector const d3 = moved[3] - moved[0];
+    if constexpr (geometry == Geometry::Axisymmetric)
+    {
+      RingSum sum(moved[0].x);
+      PackedVector const none = {Pack(0.0), Pack(0.0)};
+      sum.add(0.5 * cross(d1, d2), none, d1, d2);
+      sum.add(0.5 * cross(d2, d3), none, d2, d3);
+      Pack const inverse = 1.0 / sum.volume;
+      return {sum.volume, inverse, moved[0] + inverse * sum.first};
+    }
+    else
+    {
+      Pack const lower = 0.5 * cross(d1, d2);
+      Pack const upper = 0.5 * cross(d2, d3);
+      Pack const area = lower + upper;
+      Pack const inverse = 1.0 / area;
+      Pack const third = inverse * (1.0 / 3.0);
+      return {area, inverse, moved[0] + ((lower * third) * (d1 + d2) + (upper * third) * (d2 + d3))};
+    }
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION void compute(int const cell[pack_width], int const pair[pack_width],
                                            int const flags[pack_width], int common, unsigned lanes) const
   {
@@ -144,19 +238,13 @@ struct SweptGeometryFunctor
       back[k] = bitOf(flags, common, SweptCornerBit << k) * homeward;
       middle[k] = moved[k] - Pack(0.5) * back[k];
     }
-    PackedVector const d1 = moved[1] - moved[0];
-    PackedVector const d2 = moved[2] - moved[0];
-    PackedVector const d3 = moved[3] - moved[0];
-    Pack const lower = 0.5 * cross(d1, d2);
-    Pack const upper = 0.5 * cross(d2, d3);
-    Pack const area = lower + upper;
-    Pack const inverse = 1.0 / area;
-    Pack const third = inverse * (1.0 / 3.0);
-    PackedVector const centroid = moved[0] + ((lower * third) * (d1 + d2) + (upper * third) * (d2 + d3));
+    Volume const whole = volumeOf(moved);
+    Pack const inverse = whole.inverse;
+    PackedVector const centroid = whole.centroid;
     Pack const mass = packOf([&](int lane) { return stage.record(pair[lane], Mass); });
 
     Pack row[8], centre[8];
-    row[MovedVolume] = area;
+    row[MovedVolume] = whole.volume;
     row[CentroidX] = centroid.x;
     row[CentroidY] = centroid.y;
     row[MovedDensity] = mass * inverse;
@@ -165,8 +253,12 @@ struct SweptGeometryFunctor
       int const next = (k + 1) % 4;
       PackedVector const edge = middle[next] - middle[k];
       Pack const d_a = cross(back[k], edge), d_b = cross(back[next], edge);
-      Swept swept = sweptWhole(edge, back[k], back[next], d_a, d_b);
-      splitWhereEdgesCross(edge, back[k], back[next], d_a, d_b, swept);
+      Swept swept;
+      if constexpr (geometry == Geometry::Planar)
+        swept = sweptWhole(edge, back[k], back[next], d_a, d_b);
+      else
+        swept = sweptRing(middle[k].x, edge, back[k], back[next], d_a, d_b);
+      splitWhereEdgesCross<geometry>(middle[k].x, edge, back[k], back[next], d_a, d_b, swept);
       row[SweptVolume + k] = bitOf(flags, common, NeighbourBit << k) * swept.volume;
       PackedVector const c = (middle[k] - centroid) + swept.centre;
       centre[2 * k] = c.x;
@@ -181,8 +273,13 @@ struct SweptGeometryFunctor
 
 void sweptGeometry(SweptStage const &stage, int begin, int end)
 {
-  Kokkos::parallel_for("Harmos::remap::sweptGeometry", RangePolicy(0, numPacks(end - begin)),
-                       SweptGeometryFunctor{stage, begin, end});
+  RangePolicy const range(0, numPacks(end - begin));
+  if (stage.geometry == Geometry::Planar)
+    Kokkos::parallel_for("Harmos::remap::sweptGeometry", range,
+                         SweptGeometryFunctor<Geometry::Planar>{stage, begin, end});
+  else
+    Kokkos::parallel_for("Harmos::remap::sweptGeometry", range,
+                         SweptGeometryFunctor<Geometry::Axisymmetric>{stage, begin, end});
 }
 
 } // namespace RemapDetail

@@ -63,6 +63,7 @@ struct SweptStage
              View<double *[num_pair_fields]> const &record_after, View<double *> const &kinetic_after,
              View<double *[2]> const &velocity_after);
 
+  Geometry geometry;
   double dt;
   bool second_order;
   RemapLimiter limiter;
@@ -115,7 +116,7 @@ struct SweptSums
 /// Only swept nodes go back, by u = dt v (to another mesh: x + dt v - y); face k with ends a, b sweeps (u_a + u_b)/2 x
 /// E out of the cell, E the edge at mid-step: the four add up to the change of area exactly. Where the edges before and
 /// after cross, one triangle goes out and another comes in. First moments are exact too: so is the remap of linear
-/// fields.
+/// fields. Axisymmetric: all weighted by the radius, as exactly.
 void sweptGeometry(SweptStage const &stage, int begin, int end);
 
 /// Fluxes of the faces through which cells lose material: a limited linear polynomial per cell at the swept centroids.

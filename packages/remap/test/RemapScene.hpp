@@ -79,6 +79,7 @@ struct Scene
   RemapReport report;
   Kinematics kinematics = Kinematics::Xfem;
   double dt = 1.0;
+  Geometry geometry = Geometry::Planar;
   std::vector<int> owner; // of the whole mesh's cells; empty: one rank
   int halo = 0;
 
@@ -108,6 +109,13 @@ struct Scene
     Kokkos::deep_copy(materials, m);
   }
 
+  /// The same mesh, x the radius.
+  void aboutAxis()
+  {
+    geometry = Geometry::Axisymmetric;
+    setGeometry(mesh, geometry);
+  }
+
   /// See the scene as rank 0 of a partition.
   void distribute(std::vector<int> const &cell_owner, int layers)
   {
@@ -122,6 +130,7 @@ struct Scene
   void setBoundaries(std::vector<Boundary> const &kinds)
   {
     mesh = owner.empty() ? buildMesh(host_mesh) : buildLocalMesh(host_mesh, owner, 0, halo);
+    setGeometry(mesh, geometry);
     boundary = View<Boundary *>("boundary", kinds.size());
     auto const b = Kokkos::create_mirror_view(boundary);
     for (std::size_t i = 0; i < kinds.size(); ++i)
@@ -250,13 +259,13 @@ private:
     for (int pair = 0; pair < pairs.num_pairs; ++pair)
     {
       int const cell = pairs.cell(pair);
-      Moments<1> const m = moments<1>(region[pair], region[pair][0]);
+      Moments<1> const m = moments<1>(region[pair], region[pair][0], areaWeight(geometry, region[pair][0]));
       Vector2 const centroid = region[pair][0] + m.centroid();
       bool const pure = regions.cell_region(cell) < 0;
-      double const volume = pure ? mesh.cell_area(cell) : m.volume();
+      double const volume = pure ? mesh.cell_volume(cell) : m.volume();
       double const rho = density(pairs.material(pair), centroid);
       state.record(pair, Mass) = rho * volume;
-      state.record(pair, VolumeFraction) = pure ? 1.0 : volume / mesh.cell_area(cell);
+      state.record(pair, VolumeFraction) = pure ? 1.0 : volume / mesh.cell_volume(cell);
       state.record(pair, SpecificVolume) = 1.0 / rho;
       state.record(pair, InternalEnergy) = energy(pairs.material(pair), centroid);
       state.record(pair, PlasticStrain) = 0.01 * (1.0 + centroid[0]);
@@ -289,7 +298,7 @@ inline Totals totals(Mesh const &mesh, CellMaterialPairs const &pairs, View<doub
     t.internal += m * record(pair, InternalEnergy);
     t.thermodynamic_volume += m * record(pair, SpecificVolume);
     t.plastic += m * record(pair, PlasticStrain);
-    t.volume += record(pair, VolumeFraction) * mesh.cell_area(pairs.cell(pair));
+    t.volume += record(pair, VolumeFraction) * mesh.cell_volume(pairs.cell(pair));
     for (int k = 0; k < 4; ++k)
     {
       int const dof = pairs.dof_node(pair, k);

@@ -30,7 +30,7 @@ Mesh shiftedMesh(Scene const &scene, double amount)
 {
   Mesh target = scene.mesh;
   target.node_position = View<double *[2]>("target", scene.mesh.num_nodes);
-  target.cell_area = View<double *>("targetArea", scene.mesh.num_cells);
+  separateGeometry(target);
   for (int node = 0; node < scene.mesh.num_nodes; ++node)
     for (int d = 0; d < 2; ++d)
     {

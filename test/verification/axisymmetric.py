@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Axisymmetric runs: uniform axial motion, the cylindrical Noh problem, symmetry of a spherical blast, an impact about the
+axis on several ranks, the copper Taylor rod against other codes, and what is refused.
+"""
+import math
+import pathlib
+
+from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
+from harness import check, clean, harmos, read_columns, run
+
+DECKS = pathlib.Path(__file__).resolve().parent / "decks"
+ROD = "taylor_rod_axisymmetric/deck.yaml"
+QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": "false"}
+
+
+def test_translation_along_the_axis_keeps_masses_volumes_and_pressure():
+    r = harmos(DECKS / "ring_translation.yaml")
+    exact = {"sphere": 2.0 / 3.0 * 0.27**3, "torus": math.pi * 0.17**2 * 0.6}
+    exact["column"] = 0.5 * 0.9 - exact["sphere"] - exact["torus"]
+    density = {"sphere": 7800.0, "torus": 7800.0, "column": 1000.0}
+    for body, volume in exact.items():
+        mass = density[body] * volume
+        check(f"{body}: mass painted", abs(r.first(f"{body}.mass") / mass - 1.0), 1e-12)
+        check(f"{body}: mass kept", max(abs(m / mass - 1.0) for m in r[f"{body}.mass"]), 1e-12)
+        check(f"{body}: volume kept", max(abs(v / volume - 1.0) for v in r[f"{body}.volume"]), 1e-11)
+    check("axial momentum", r.summary["momentum_error"], 1e-13)
+    kinetic = 0.5 * sum(density[b] * v for b, v in exact.items()) * 300.0**2
+    check("kinetic energy", max(abs(k / kinetic - 1.0) for k in r["kinetic_energy"]), 1e-12)
+    check("internal energy over kinetic", max(abs(e) for e in r["internal_energy"]) / kinetic, 1e-12)
+    clean(r)
+
+
+def noh(cells):
+    """Errors of the density behind the shock (exact 16 at r = 0.1) and before it (1 + t/r = 3 at r = 0.3)."""
+    r = harmos(DECKS / "noh.yaml", {"mesh/x/cells": cells, "mesh/y/cells": 3 * cells // 100, **QUIET})
+    probes = read_columns(r.directory / "probes.csv")
+    density = dict(zip(probes["name"], probes["density"]))  # the last of each
+    print(f"  {cells} cells: density {density['behind']:.3f} behind, {density['before']:.4f} before")
+    check("energy", r.summary["energy_error"], 1e-12)
+    clean(r)
+    return abs(density["behind"] / 16.0 - 1.0), abs(density["before"] / 3.0 - 1.0)
+
+
+def test_noh_problem_converges_to_its_plateau():
+    coarse, fine = noh(100), noh(200)
+    check("behind, 100 cells", coarse[0], 0.12)
+    check("behind, 200 cells", fine[0], 0.03)
+    check("before, 200 cells", fine[1], 0.01)
+
+
+def test_spherical_blast_stays_a_sphere_to_a_percent():
+    r = harmos(DECKS / "blast.yaml", QUIET)
+    across, along = r.last("ball.x_max"), r.last("ball.y_max")
+    print(f"  front of the hot gas: r = {across:.4f}, z = {along:.4f}")
+    check("asymmetry", abs(across / along - 1.0), 0.012)
+    check("energy", r.summary["energy_error"], 1e-12)
+    clean(r)
+
+
+def test_impact_about_the_axis_keeps_axial_momentum_and_is_the_same_on_any_number_of_ranks():
+    common = {"run/max_cycles": 60, "output/checkpoint/at_end": "true", "output/fields/at_end": "false"}
+    one = harmos(DECKS / "ring_impact.yaml", common)
+    check("axial momentum", one.summary["momentum_error"], 1e-13)
+    check("mass", one.summary["mass_error"], 1e-13)
+    assert max(one["plate.momentum_y"]) > 0.01
+    for n in (2, 4):
+        several = harmos(DECKS / "ring_impact.yaml", common, ranks=n)
+        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
+        worst, column = same_history(one, several)
+        check(f"{n} ranks: history, worst in {column}", worst, ROUND_OFF)
+        clean(several)
+    clean(one)
+
+
+def test_rigid_ball_on_the_axis_moves_along_it_and_action_is_reaction():
+    settings = {"materials/ball": "{eos: rigid, density: 7800.0}", "bodies/sphere/material": "ball",
+                "bodies/sphere/motion": "free", "run/max_cycles": 100, **QUIET}
+    r = harmos(DECKS / "ring_impact.yaml", settings)
+    check("ball's mass", abs(r.first("sphere.mass") / (7800.0 * 2.0 / 3.0 * 0.004**3) - 1.0), 1e-12)
+    check("ball's radial momentum", max(abs(p) for p in r["sphere.momentum_x"]), 0.0)
+    check("axial momentum", r.summary["momentum_error"], 1e-12)
+    assert max(r["plate.momentum_y"]) > 0.01
+    clean(r)
+
+
+def test_copper_rod_has_the_length_and_radius_of_other_codes():
+    r = harmos(ROD, QUIET)
+    length, radius = r.last("rod.y_max") - r.last("rod.y_min"), r.last("rod.x_max")
+    print(f"  length {1e3 * length:.3f} mm, radius {1e3 * radius:.3f} mm, largest plastic strain "
+          f"{r.last('rod.plastic_strain_max'):.2f}, cycles {r.summary['cycles']}")
+    assert 21.4e-3 <= length <= 21.7e-3
+    assert 7.0e-3 <= radius <= 7.2e-3
+    check("mass", r.summary["mass_error"], 1e-13)
+    check("energy", r.summary["energy_error"], 1e-12)
+    clean(r)
+
+
+def test_what_has_no_meaning_about_an_axis_is_refused():
+    for settings, words in ((("mesh/x/from", -0.001), "mesh/x/from"), (("boundaries/left/type", "outflow"), "axis"),
+                            (("gravity", "[1.0, 0.0]"), "radial"), (("bodies/rod/angular_velocity", 1.0), "ring")):
+        r = harmos(ROD, dict([settings]), expect=2)
+        assert words in r.text, r.text
+        assert len(r.text.strip().splitlines()) == 1, r.text
+
+
+if __name__ == "__main__":
+    run(globals())
