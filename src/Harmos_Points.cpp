@@ -115,6 +115,7 @@ enum SampleColumn : int
   ColumnInternalEnergy,
   ColumnPlasticStrain,
   ColumnVonMises,
+  ColumnDamage,
   sample_width
 };
 
@@ -140,6 +141,7 @@ KOKKOS_INLINE_FUNCTION void sampleAt(PointField const &field, int cell, int mate
   out(i, ColumnInternalEnergy) = record(pair, InternalEnergy);
   out(i, ColumnPlasticStrain) = record(pair, PlasticStrain);
   out(i, ColumnVonMises) = Math::sqrt(1.5 * (xx * xx + yy * yy + (xx + yy) * (xx + yy) + 2.0 * xy * xy));
+  out(i, ColumnDamage) = field.state.tracks_damage ? Math::min(field.state.damage(pair), 1.0) : 0.0;
 }
 
 /// Rows that one rank at most has filled, on all ranks: a sum with zeros keeps the bits.
@@ -209,6 +211,7 @@ std::vector<PointSample> samplePoints(PointField const &field, std::vector<Vecto
     samples[i].internal_energy = row[ColumnInternalEnergy];
     samples[i].plastic_strain = row[ColumnPlasticStrain];
     samples[i].von_mises = row[ColumnVonMises];
+    samples[i].damage = row[ColumnDamage];
   }
   return samples;
 }

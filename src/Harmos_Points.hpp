@@ -31,6 +31,7 @@ struct PointSample
   double internal_energy = 0.0;  // per mass
   double plastic_strain = 0.0;
   double von_mises = 0.0; // sqrt(3/2 s:s)
+  double damage = 0.0;    // 0: sound, or no law can fail; 1: failed
 };
 
 /// One state, for the two functions below.

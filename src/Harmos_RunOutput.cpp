@@ -220,11 +220,11 @@ void RunOutput::writeProbes(Scene const &scene, CycleState const &state)
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     PointSample const &s = samples[i];
-    entries.push_back(
-        {deck_.probes[i].name,
-         {},
-         materialName(s.material),
-         {s.density, s.pressure, s.velocity[0], s.velocity[1], s.internal_energy, s.plastic_strain, s.von_mises}});
+    entries.push_back({deck_.probes[i].name,
+                       {},
+                       materialName(s.material),
+                       {s.density, s.pressure, s.velocity[0], s.velocity[1], s.internal_energy, s.plastic_strain,
+                        s.von_mises, s.damage}});
   }
   probes_->write(state.cycle, state.time, entries);
 }
@@ -252,7 +252,7 @@ void RunOutput::writeTracers(Scene const &scene, CycleState const &state)
     entries.push_back({deck_.tracers[i].name,
                        {t.position[0], t.position[1], t.velocity[0], t.velocity[1]},
                        s.inside ? materialName(s.material) : "outside",
-                       {s.density, s.pressure, s.internal_energy, s.plastic_strain, s.von_mises}});
+                       {s.density, s.pressure, s.internal_energy, s.plastic_strain, s.von_mises, s.damage}});
   }
   tracers_->write(state.cycle, state.time, entries);
 }

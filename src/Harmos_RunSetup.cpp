@@ -161,6 +161,11 @@ void restoreState(Run &run)
   s.pairs = read.pairs;
   s.state.record = read.record;
   s.state.centroid = read.centroid;
+  s.state.tracks_damage = tracksDamage(run.deck);
+  s.state.damage = read.damage;
+  if (s.state.tracks_damage != read.has_damage)
+    throw std::runtime_error(read.has_damage ? "it holds damage, and no law of the deck can fail"
+                                             : "it holds no damage, and laws of the deck can fail");
   s.dof_nodes = buildDofNodes(run.scene.mesh, run.deck.kinematics, read.record, s.pairs);
   s.state.velocity = dofVelocities(s.pairs, s.dof_nodes, read.corner_velocity);
   s.bodies = scalars.bodies;

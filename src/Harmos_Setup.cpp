@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_Setup.hpp"
 
+#include "Harmos_BlockMesh.hpp"
 #include "Harmos_PrescribedCycle.hpp"
 #include "Harmos_SmoothedMesh.hpp"
 
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_EquationOfState.hpp>
+#include <Harmos_Failure.hpp>
 #include <Harmos_FlowStress.hpp>
 #include <Harmos_Paint.hpp>
 
@@ -23,106 +25,6 @@ std::vector<double> gridLines(AxisSpec const &axis)
   for (int i = 0; i <= axis.cells; ++i)
     lines.push_back(axis.position(i));
   return lines;
-}
-
-/// Corners of a body's block: its rectangle, cut off at the domain's sides where it lies along the axes.
-MappedBlock bodyBlock(Deck const &deck, BodySpec const &body)
-{
-  MappedBlock block;
-  std::vector<Vector2> const corners = outlinePoints(body.shape);
-  Vector2 const low{deck.x.from, deck.y.from}, high{deck.x.to, deck.y.to};
-  bool const aligned = corners[0][1] == corners[1][1] && corners[1][0] == corners[2][0];
-  for (int k = 0; k < 4; ++k)
-    for (int d = 0; d < 2; ++d)
-    {
-      double const inside = std::clamp(corners[k][d], low[d], high[d]);
-      if (!aligned && inside != corners[k][d])
-        throw DeckError("bodies/" + body.name +
-                        ": a rotated block of kinematics lagrangian must lie inside the domain");
-      block.corner[k][d] = inside;
-    }
-  double const part[2] = {(block.corner[1][0] - block.corner[0][0]) / (corners[1][0] - corners[0][0]),
-                          (block.corner[3][1] - block.corner[0][1]) / (corners[3][1] - corners[0][1])};
-  for (int d = 0; d < 2; ++d)
-    block.cells[d] = aligned ? std::max(1, static_cast<int>(std::lround(body.cells[d] * part[d]))) : body.cells[d];
-  return block;
-}
-
-/// A row of rigid cells behind a side of the domain: what a contact wall is to a body-fitted mesh.
-MappedBlock wallBlock(Deck const &deck, int side)
-{
-  double const x0 = deck.x.from, x1 = deck.x.to, y0 = deck.y.from, y1 = deck.y.to;
-  double const dx = (x1 - x0) / deck.x.cells, dy = (y1 - y0) / deck.y.cells;
-  // no wall reaches beyond the axis
-  double const low = deck.geometry == Geometry::Axisymmetric ? std::max(0.0, x0 - dx) : x0 - dx;
-  int const nx = deck.x.cells + (low < x0 ? 2 : 1), ny = deck.y.cells;
-  auto const box = [](double xa, double ya, double xb, double yb, int cx, int cy) {
-    return MappedBlock{{Corner{xa, ya}, Corner{xb, ya}, Corner{xb, yb}, Corner{xa, yb}}, {cx, cy}};
-  };
-  switch (side)
-  {
-  case Left:
-    return box(low, y0 - dy, x0, y1 + dy, 1, ny + 2);
-  case Right:
-    return box(x1, y0 - dy, x1 + dx, y1 + dy, 1, ny + 2);
-  case Bottom:
-    return box(low, y0 - dy, x1 + dx, y0, nx, 1);
-  default:
-    return box(low, y1, x1 + dx, y1 + dy, nx, 1);
-  }
-}
-
-/// The domain side on which both ends of a face lie, or -1.
-int sideOf(Deck const &deck, Corner const &a, Corner const &b)
-{
-  double const near_x = 1e-9 * (deck.x.to - deck.x.from), near_y = 1e-9 * (deck.y.to - deck.y.from);
-  auto const on = [&](int d, double at, double near)
-  { return std::fabs(a[d] - at) < near && std::fabs(b[d] - at) < near; };
-  if (on(0, deck.x.from, near_x))
-    return Left;
-  if (on(0, deck.x.to, near_x))
-    return Right;
-  if (on(1, deck.y.from, near_y))
-    return Bottom;
-  if (on(1, deck.y.to, near_y))
-    return Top;
-  return -1;
-}
-
-/// Contact walls of kinematics lagrangian, in the order of the sides: each is a rigid material after the deck's fields.
-std::vector<int> wallSides(Deck const &deck)
-{
-  std::vector<int> sides;
-  if (deck.kinematics == Kinematics::Lagrangian)
-    for (int side = 0; side < num_boundary_sides; ++side)
-      if (deck.boundary[side].kind == BoundaryKind::ContactWall)
-        sides.push_back(side);
-  return sides;
-}
-
-DeckMesh makeBlockMesh(Deck const &deck)
-{
-  std::vector<MappedBlock> blocks;
-  for (BodySpec const &body : deck.bodies)
-    blocks.push_back(bodyBlock(deck, body));
-  for (int side : wallSides(deck))
-    blocks.push_back(wallBlock(deck, side));
-  BlockMesh made = mappedBlocks(blocks);
-  int const num_bodies = static_cast<int>(deck.bodies.size());
-  for (std::size_t c = 0; c < made.mesh.cell.size(); ++c)
-    for (int k = 0; k < 4; ++k)
-    {
-      int &boundary = made.mesh.face_boundary[c][k];
-      if (boundary < 0)
-        continue;
-      boundary = made.cell_block[c] >= num_bodies ? -1
-                                                  : sideOf(deck, made.mesh.node[made.mesh.cell[c][k]],
-                                                           made.mesh.node[made.mesh.cell[c][(k + 1) % 4]]);
-      // A one-sided wall is a body of its own here: the block's face towards it is free.
-      if (boundary >= 0 && deck.boundary[boundary].kind == BoundaryKind::ContactWall)
-        boundary = -1;
-    }
-  return {made.mesh, made.cell_block};
 }
 
 RigidBody rigidBody(Deck const &deck, BodySpec const &spec, Shape const &shape)
@@ -162,6 +64,20 @@ double equalStep(Deck const &deck, double max_dt)
   double const shortest = (1.0 - 2.0 * deck.jitter) * std::min(deck.x.smallestCell(), deck.y.smallestCell());
   double const largest = std::min(max_dt, speed > 0.0 ? deck.lagrange.courant * shortest / speed : deck.run.end_time);
   return deck.run.end_time / std::ceil(deck.run.end_time / largest * (1.0 - 1e-12));
+}
+
+/// The motion of a body at time zero; no shape.
+Body movingBody(BodySpec const &spec)
+{
+  Body body;
+  body.velocity = spec.velocity;
+  body.angular_velocity = spec.angular_velocity;
+  body.radial_velocity = spec.radial_velocity;
+  body.radial_radius = spec.radial_radius;
+  body.radial_exponent = spec.radial_exponent;
+  body.radial_centre = spec.radial_centre;
+  body.rotation_centre = spec.shape.reference();
+  return body;
 }
 
 /// One pair a cell, filled; velocities of the body at the nodes.
@@ -211,11 +127,10 @@ void fillBlocks(Deck const &deck, DeckMesh const &whole, Scene const &scene, Cyc
     int const block = whole.cell_body[global(c)];
     if (block >= num_bodies)
       continue;
-    BodySpec const &body = deck.bodies[block];
+    Body const body = movingBody(deck.bodies[block]);
     for (int k = 0; k < 4; ++k)
     {
-      Vector2 const x{position(cell_node(c, k), 0), position(cell_node(c, k), 1)};
-      Vector2 const v = body.velocity + body.angular_velocity * perpendicular(x - body.shape.reference());
+      Vector2 const v = body.velocityAt({position(cell_node(c, k), 0), position(cell_node(c, k), 1)});
       for (int d = 0; d < 2; ++d)
         velocity(dof_node(c, k), d) = v[d];
     }
@@ -246,18 +161,17 @@ Shape makeShape(ShapeSpec const &spec)
     return Shape::polygon(spec.points).moved(spec.shift, spec.angle);
   case ShapeKind::HalfPlane:
     return Shape::halfPlane(spec.center, spec.normal).moved(spec.shift, spec.angle);
+  case ShapeKind::MeshPart: // it has cells, and is never painted
+    break;
   }
-  throw std::logic_error("a shape of unknown kind");
+  throw std::logic_error("a body without an outline is not painted");
 }
 
 Body paintedBody(BodySpec const &spec)
 {
-  Body body;
+  Body body = movingBody(spec);
   body.shape = makeShape(spec.shape);
   body.material = spec.field;
-  body.velocity = spec.velocity;
-  body.angular_velocity = spec.angular_velocity;
-  body.rotation_centre = spec.shape.reference();
   body.density = spec.density;
   body.specific_volume = 1.0 / spec.density;
   body.internal_energy = spec.internal_energy;
@@ -338,6 +252,11 @@ Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange c
   return scene;
 }
 
+bool tracksDamage(Deck const &deck)
+{
+  return std::any_of(deck.laws.begin(), deck.laws.end(), [](LawSpec const &law) { return canFail(law.law); });
+}
+
 CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const &scene)
 {
   CycleState s;
@@ -355,6 +274,11 @@ CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const
     s.dof_nodes = buildDofNodes(scene.mesh, deck.kinematics, s.state.record, painting.pairs);
     s.pairs = painting.pairs;
     s.state.velocity = paintedVelocity(scene.mesh, bodies, painting, s.dof_nodes);
+  }
+  if (tracksDamage(deck))
+  {
+    s.state.tracks_damage = true;
+    s.state.damage = View<double *>("damage", s.pairs.num_pairs);
   }
   setRigidVelocities(scene, s);
   if (scene.prescribed.kind != FieldKind::None)

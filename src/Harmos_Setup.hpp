@@ -15,7 +15,7 @@ namespace Harmos
 struct DeckMesh
 {
   HostMesh mesh;
-  std::vector<int> cell_body;     // lagrangian: body of each cell; else empty
+  std::vector<int> cell_body; // lagrangian: body of each cell; else empty
 };
 DeckMesh makeMesh(Deck const &deck);
 
@@ -27,6 +27,9 @@ Body paintedBody(BodySpec const &spec);
 
 /// Everything that does not change: `mesh` and `exchange` are given, the rest comes from the deck.
 Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Exchange const &exchange);
+
+/// Whether some law of the deck can fail, so that pairs carry damage.
+bool tracksDamage(Deck const &deck);
 
 /// The state at time zero: painted bodies (or blocks), their velocities. Not collective: what is wrong with the bodies
 /// may show on some ranks alone.

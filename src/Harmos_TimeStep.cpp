@@ -365,9 +365,11 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   TimeStepLimit next;
   {
     PhaseTimer timer("lagrange", times.lagrange);
+    keepForFailure(s.pairs, s.state, work);
     if (closes)
       closeMixedCells(mesh, s.pairs, s.state, scene.materials, dt, work);
     report.update = updatePairs(mesh, s.pairs, s.state, scene.materials, scene.lagrange, dt, work, next);
+    report.failure = failPairs(mesh, scene.kinematics, s.pairs, s.state, scene.materials, !closes, dt, work);
   }
   moveBodies(s.bodies, dt);
   moveTracers(pointField(scene, s), work.half, dt, scene.kinematics == Kinematics::Lagrangian, exchange, s.tracers);
@@ -384,7 +386,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   else
   {
     // Volume fractions have changed within the cells.
-    if (closes)
+    if (closes || report.failure.fractions_changed)
     {
       PhaseTimer timer("reconstruct", times.reconstruct);
       reconstructState(scene, s, report.reconstruction);

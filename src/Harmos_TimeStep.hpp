@@ -93,6 +93,7 @@ struct CycleReport
   ReconstructionReport reconstruction;
   ConstraintReport constraint;
   UpdateReport update;
+  FailureReport failure;
   RemapReport remap;
   double external_work = 0.0; // gravity, walls, driven bodies
   Vector2 external_impulse = {0.0, 0.0};

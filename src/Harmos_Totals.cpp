@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Harmos_Totals.hpp"
 
+#include <Harmos_CellVoid.hpp>
+#include <Harmos_Failure.hpp>
+
 #include <cmath>
 
 namespace Harmos
@@ -83,6 +86,28 @@ std::vector<double> extents(Scene const &scene, CycleState const &s, FilledRegio
   return result;
 }
 
+/// Mass of this rank's failed pairs of one material.
+double failedMass(Scene const &scene, CycleState const &s, int material)
+{
+  if (!s.state.tracks_damage)
+    return 0.0;
+  auto const mesh = scene.mesh;
+  auto const pairs = s.pairs;
+  auto const state = s.state;
+  auto const materials = scene.materials;
+  double sum = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::failedMass", RangePolicy(0, pairs.num_pairs),
+      KOKKOS_LAMBDA(int pair, double &part) {
+        int const cell = pairs.cell(pair);
+        if (pairs.material(pair) == material && mesh.cell_depth(cell) == 0 &&
+            isFailed(materials(material), state.damage(pair), isOpen(pairs, state.record, cell)))
+          part += state.record(pair, Mass);
+      },
+      sum);
+  return sum;
+}
+
 } // namespace
 
 long long countOwnedPairs(Mesh const &mesh, CellMaterialPairs const &pairs)
@@ -104,6 +129,8 @@ Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials,
   for (int m = 0; m < all_materials; ++m)
     for (int i = 0; i < PlasticStrainMax; ++i)
       flat.push_back(sums(m, i));
+  for (int m = 0; m < num_materials; ++m)
+    flat.push_back(failedMass(scene, s, m));
   flat.push_back(counts.speed_momentum);
   flat.push_back(counts.moment);
   scene.exchange->sum(flat.data(), static_cast<int>(flat.size()));
@@ -161,7 +188,10 @@ Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials,
       totals.internal_energy += row.internal_energy;
     }
     if (m < num_materials)
+    {
+      row.failed_mass = flat[PlasticStrainMax * all_materials + m];
       totals.material[m] = row;
+    }
   }
 
   if (with_extents)

@@ -55,10 +55,7 @@ def main(results, picture):
     axes[0, 0].plot(fine, sod_density(fine, 0.2), color="#B65D5D", lw=1.2, label="exact")
     axes[0, 0].plot(x[:, 0], density, ".", ms=3, color="#4C78A8", label="200 cells")
     axes[0, 0].set(title="Sod, t = 0.2 s, two fields in contact", xlabel="x [m]", ylabel="density [kg/m³]")
-    x, _, density, _ = last_fields(Folder(results / "noh_planar"))
-    axes[0, 1].plot(fine, numpy.where(fine < 0.2, 4.0, 1.0), color="#B65D5D", lw=1.2, label="exact")
-    axes[0, 1].plot(x[:, 0], density, ".", ms=3, color="#4C78A8", label="200 cells")
-    axes[0, 1].set(title="Noh, planar, t = 0.6 s", xlabel="x [m]", ylabel="density [kg/m³]", xlim=(0.0, 0.35))
+    radial(axes[0, 1], results / "noh", "Noh, t = 0.6 s, 100 x 100", lambda r: numpy.where(r < 0.2, 16.0, 1.0 + 0.6 / r), 0.4)
     radius, shape, _ = sedov_profile()
     radial(axes[1, 0], results / "sedov", "Sedov, t = 1 s, 120 x 120",
            lambda r: numpy.where(r < 1.0, 6.0 * numpy.interp(r, radius, shape), 1.0), 1.15)

@@ -38,6 +38,9 @@ struct BondLoad
 /// Farthest that a bond reaches. [cell sizes]
 constexpr double bond_reach = 2.0;
 
+/// Widest gap that a bond holds across; wider ones are void between two bodies. [cell sizes]
+constexpr double bond_gap = 0.1;
+
 /// True where (t_n / tensile)^2 + (t_t / shear)^2 >= 1 with the mean tractions t = load / (dt length), t_n in tension
 /// alone; a strength of 0 has no part.
 bool breaks(BondLoad const &load, BondStrength const &strength, double dt);

@@ -180,7 +180,7 @@ struct RowBuilder
     PairInteraction const &law = interaction(row.material_a, row.material_b);
     if (law.kind == Interaction::Friction)
       row.friction = law.friction;
-    if (law.kind != Interaction::Bonded)
+    if (law.kind != Interaction::Bonded || row.gap > bond_gap * Math::sqrt(mesh.cell_area(row.cell_a)))
       return;
     if (law.strength.limited())
     {

@@ -55,7 +55,7 @@ struct OwnedPairs
 {
   std::vector<long long> cell;
   std::vector<int> material;
-  std::vector<double> record, centroid, corner_velocity;
+  std::vector<double> record, centroid, corner_velocity, damage;
 };
 
 OwnedPairs ownedPairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state)
@@ -68,6 +68,7 @@ OwnedPairs ownedPairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairStat
   auto const record = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), state.record);
   auto const centroid = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), state.centroid);
   auto const velocity = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), state.velocity);
+  auto const damage = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), state.damage);
   OwnedPairs owned;
   for (int pair = 0; pair < pairs.num_pairs; ++pair)
   {
@@ -82,11 +83,13 @@ OwnedPairs ownedPairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairStat
     for (int corner = 0; corner < 4; ++corner)
       for (int d = 0; d < 2; ++d)
         owned.corner_velocity.push_back(velocity(dof(pair, corner), d));
+    if (state.tracks_damage)
+      owned.damage.push_back(damage(pair));
   }
   return owned;
 }
 
-void writePairs(Hdf5File &file, MPI_Comm comm, OwnedPairs const &owned, long long num_cells)
+void writePairs(Hdf5File &file, MPI_Comm comm, OwnedPairs const &owned, bool has_damage, long long num_cells)
 {
   GlobalOrder const order(comm, owned.cell, num_cells);
   file.createGroup("/pairs");
@@ -96,6 +99,8 @@ void writePairs(Hdf5File &file, MPI_Comm comm, OwnedPairs const &owned, long lon
   writeChecked(file, order, "/pairs/record", order.arrange(owned.record, num_pair_fields), num_pair_fields);
   writeChecked(file, order, "/pairs/centroid", order.arrange(owned.centroid, 2), 2);
   writeChecked(file, order, "/pairs/corner_velocity", order.arrange(owned.corner_velocity, 8), 8);
+  if (has_damage)
+    writeChecked(file, order, "/pairs/damage", order.arrange(owned.damage), 1);
 }
 
 void writeNodes(Hdf5File &file, MPI_Comm comm, Mesh const &mesh, long long num_nodes)
@@ -144,7 +149,7 @@ std::string writeCheckpoint(MPI_Comm comm, std::string const &directory, Mesh co
     file.writeAttribute("/", "cells", num_cells);
     file.writeAttribute("/", "nodes", num_nodes);
     writeScalars(file, comm, scalars);
-    writePairs(file, comm, ownedPairs(mesh, pairs, state), num_cells);
+    writePairs(file, comm, ownedPairs(mesh, pairs, state), state.tracks_damage, num_cells);
     if (scalars.kinematics == Kinematics::Lagrangian || scalars.moving_mesh)
       writeNodes(file, comm, mesh, num_nodes);
     file.close();

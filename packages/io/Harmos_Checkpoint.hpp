@@ -36,6 +36,8 @@ struct CheckpointState
   View<double *[num_pair_fields]> record;
   View<double *[2]> centroid;
   View<double *[8]> corner_velocity; // vx, vy of corners 0..3
+  bool has_damage = false;
+  View<double *> damage; // pairs, where the run tracked it
 };
 
 /// Write DIR/checkpoint_CYCLE.h5; collective.

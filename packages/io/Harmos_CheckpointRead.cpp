@@ -147,7 +147,8 @@ private:
 struct GatheredPairs
 {
   std::vector<int> cell, material;
-  std::vector<double> record, centroid, corner;
+  std::vector<double> record, centroid, corner, damage;
+  bool has_damage = false;
 };
 
 template <class T>
@@ -162,8 +163,9 @@ GatheredPairs scanPairs(std::string const &path, Hdf5File const &file, Mesh cons
   auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_global);
   LocalRows<decltype(global)> local(global, mesh.num_cells);
   GatheredPairs kept;
-  Checksum cell_sum, material_sum, record_sum, centroid_sum, corner_sum;
+  Checksum cell_sum, material_sum, record_sum, centroid_sum, corner_sum, damage_sum;
   long long const total = file.readAttribute<long long>("/pairs", "count");
+  kept.has_damage = file.exists("/pairs/damage");
   for (long long first = 0; first < total; first += chunk_rows)
   {
     long long const count = std::min(chunk_rows, total - first);
@@ -177,6 +179,8 @@ GatheredPairs scanPairs(std::string const &path, Hdf5File const &file, Mesh cons
     record_sum.add(record, first * num_pair_fields);
     centroid_sum.add(centroid, first * 2);
     corner_sum.add(corner, first * 8);
+    auto const damage = kept.has_damage ? file.read<double>("/pairs/damage", 1, first, count) : std::vector<double>();
+    damage_sum.add(damage, first);
     for (std::size_t row = 0; row < cell.size(); ++row)
     {
       int const here = local.find(cell[row]);
@@ -187,6 +191,8 @@ GatheredPairs scanPairs(std::string const &path, Hdf5File const &file, Mesh cons
       keep(kept.record, record, row, num_pair_fields);
       keep(kept.centroid, centroid, row, 2);
       keep(kept.corner, corner, row, 8);
+      if (kept.has_damage)
+        kept.damage.push_back(damage[row]);
     }
   }
   if (total > 0)
@@ -196,6 +202,8 @@ GatheredPairs scanPairs(std::string const &path, Hdf5File const &file, Mesh cons
     verify(path, file, "/pairs/record", record_sum);
     verify(path, file, "/pairs/centroid", centroid_sum);
     verify(path, file, "/pairs/corner_velocity", corner_sum);
+    if (kept.has_damage)
+      verify(path, file, "/pairs/damage", damage_sum);
   }
   return kept;
 }
@@ -275,6 +283,9 @@ CheckpointState toState(Mesh const &mesh, GatheredPairs const &kept)
   state.record = toView<View<double *[num_pair_fields]>>("Harmos::state::record", kept.record, num_pair_fields);
   state.centroid = toView<View<double *[2]>>("Harmos::state::centroid", kept.centroid, 2);
   state.corner_velocity = toView<View<double *[8]>>("Harmos::io::corner_velocity", kept.corner, 8);
+  state.has_damage = kept.has_damage;
+  if (kept.has_damage) // else no view at all, which is how the kernels know
+    state.damage = toView<View<double *>>("Harmos::state::damage", kept.damage, 1);
   return state;
 }
 

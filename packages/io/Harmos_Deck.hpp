@@ -50,7 +50,8 @@ enum class ShapeKind
   Disc,
   Annulus,
   Polygon,
-  HalfPlane
+  HalfPlane,
+  MeshPart // lagrangian: a physical surface of Deck::mesh_file
 };
 
 /// An outline: first as its own numbers say, then rotated by `angle` about reference(), then moved by `shift`.
@@ -62,6 +63,7 @@ struct ShapeSpec
   double inner_radius = 0.0;   // annulus [m]
   double outer_radius = 0.0;   // disc, annulus [m]
   std::vector<Vector2> points; // polygon, counter-clockwise [m]
+  std::string part;            // mesh part: name of the physical surface
   Vector2 normal = {0.0, 1.0}; // half-plane: unit vector that leaves the material
   double angle = 0.0;          // [rad], counter-clockwise
   Vector2 shift = {0.0, 0.0};  // [m]
@@ -92,13 +94,19 @@ struct BodySpec
   int law = -1;   // in Deck::laws
   int field = -1; // in Deck::fields
   ShapeSpec shape;
-  Vector2 velocity = {0.0, 0.0};           // of the shape's reference point [m/s]
-  double angular_velocity = 0.0;           // [rad/s]
+  Vector2 velocity = {0.0, 0.0}; // of the shape's reference point [m/s]
+  double angular_velocity = 0.0; // [rad/s]
+  double radial_velocity = 0.0;  // of Body (Harmos_Paint.hpp) [m/s]
+  double radial_radius = 1.0;    // [m]
+  double radial_exponent = 0.0;
+  Vector2 radial_centre = {0.0, 0.0};      // [m]
   double density = 0.0;                    // initial [kg/m^3]
   double internal_energy = 0.0;            // initial, per mass [J/kg]; an initial pressure is turned into it
   bool cut = false;                        // cut out of the bodies before it
   RigidMotion motion = RigidMotion::Fixed; // rigid laws only
   int cells[2] = {0, 0};                   // lagrangian: cells along the block's sides (0->1, 1->2), >= 1
+  double cells_grading[2] = {1.0, 1.0};    // lagrangian: last over first cell along them
+  double arc_radius[4] = {};               // lagrangian: of the block's sides (MappedBlock) [m]
 };
 
 /// When to do something: any of the criteria that are > 0.
@@ -140,7 +148,8 @@ struct Deck
   Kinematics kinematics = Kinematics::Xfem;
   Geometry geometry = Geometry::Planar;
   AxisSpec x, y;
-  double jitter = 0.0; // of the inner nodes, part of the smaller cell beside a grid line
+  std::string mesh_file; // lagrangian: Gmsh mesh of the mesh parts; empty: none
+  double jitter = 0.0;   // of the inner nodes, part of the smaller cell beside a grid line
   int jitter_seed = 1;
   MeshSmoother smoother;                 // xfem, single
   Boundary boundary[num_boundary_sides]; // Inflow: `material` is a field

@@ -64,8 +64,27 @@ void convertMotion(DeckChecker const &check, ParameterList const &list, std::str
                 "fixed or prescribed, or another kinematics");
   check.require(body.motion != RigidMotion::Free || body.shape.kind != ShapeKind::HalfPlane, keyPath(path, "motion"),
                 "a half-plane has no finite mass; expected: fixed or prescribed");
+  check.require(body.radial_velocity == 0.0, keyPath(path, "radial_velocity"), "means nothing for a rigid body");
   for (char const *key : {"internal_energy", "pressure"})
     check.require(!list.isParameter(key), keyPath(path, key), "means nothing for a rigid body");
+}
+
+/// Quadrilateral sides along the axes of the body's frame as arcs, and the cells' grading.
+void convertBlockSides(DeckChecker const &check, ParameterList const &list, std::string const &path, Deck const &deck,
+                       BodySpec &body)
+{
+  auto const &grading = list.get<Teuchos::Array<double>>("cells_grading");
+  for (int d = 0; d < 2; ++d)
+    body.cells_grading[d] = grading[d];
+  if (!list.isParameter("arc_radii"))
+    return;
+  std::string const where = keyPath(path, "arc_radii");
+  check.require(deck.kinematics == Kinematics::Lagrangian, where,
+                "the outline of another kinematics than lagrangian has none; expected: shape disc or annulus");
+  check.require(body.shape.kind != ShapeKind::MeshPart, where, "a mesh part has its sides in the file");
+  auto const &radii = list.get<Teuchos::Array<double>>("arc_radii");
+  for (int k = 0; k < 4; ++k)
+    body.arc_radius[k] = radii[k];
 }
 
 /// Convex blocks of four corners only; default cells from the mean size of the mesh's.
@@ -81,11 +100,17 @@ void convertBlock(DeckChecker const &check, ParameterList const &list, std::stri
       body.cells[d] = static_cast<int>(cells[d]);
     }
   }
-  if (deck.kinematics != Kinematics::Lagrangian)
+  convertBlockSides(check, list, path, deck, body);
+  bool const part = body.shape.kind == ShapeKind::MeshPart;
+  check.require(!part || (deck.kinematics == Kinematics::Lagrangian && !deck.mesh_file.empty()), keyPath(path, "shape"),
+                "a mesh part needs kinematics lagrangian and mesh/file");
+  check.require(!part || !list.isParameter("cells"), keyPath(path, "cells"), "a mesh part has its cells in the file");
+  if (deck.kinematics != Kinematics::Lagrangian || part)
     return;
   std::vector<Vector2> const corners = outlinePoints(body.shape);
   check.require(corners.size() == 4, keyPath(path, "shape"),
-                "kinematics lagrangian meshes blocks; expected: a rectangle or a polygon of four corners");
+                "kinematics lagrangian meshes blocks; expected: a rectangle, a polygon of four corners, or a mesh "
+                "part");
   for (int k = 0; k < 4; ++k)
     check.require(cross(corners[(k + 1) % 4] - corners[k], corners[(k + 2) % 4] - corners[k]) > 0.0,
                   keyPath(path, "points"), "a lagrangian block must be convex");
@@ -213,6 +238,10 @@ void convertBodies(DeckChecker const &check, ParameterList const &bodies, Deck &
     body.shape = shapeOf(check, list, path);
     body.velocity = vectorOf(list, "velocity");
     body.angular_velocity = list.get<double>("angular_velocity");
+    body.radial_velocity = list.get<double>("radial_velocity");
+    body.radial_radius = list.get<double>("radial_radius");
+    body.radial_exponent = list.get<double>("radial_exponent");
+    body.radial_centre = list.isParameter("radial_center") ? vectorOf(list, "radial_center") : body.shape.reference();
     body.cut = list.get<bool>("cut");
     InitialState const state = initialState(check, list, deck.laws[body.law], path);
     body.density = state.density;
@@ -220,7 +249,8 @@ void convertBodies(DeckChecker const &check, ParameterList const &bodies, Deck &
     convertMotion(check, list, path, deck, body);
     convertBlock(check, list, path, deck, body);
     assignField(check, list, path, deck, body);
-    check.require(reachesMesh(body.shape, deck.x, deck.y), path, "lies wholly outside of the mesh");
+    check.require(body.shape.kind == ShapeKind::MeshPart || reachesMesh(body.shape, deck.x, deck.y), path,
+                  "lies wholly outside of the mesh");
     deck.bodies.push_back(body);
   }
 }

@@ -2,6 +2,7 @@
 #include <Harmos_DeckBodies.hpp>
 #include <Harmos_DeckContact.hpp>
 #include <Harmos_DeckReader.hpp>
+#include <Harmos_Failure.hpp>
 #include <Harmos_Temperature.hpp>
 
 #include <Teuchos_Array.hpp>
@@ -97,6 +98,33 @@ void convertStrength(DeckChecker const &check, LawNumbers const &value, std::str
   setThermalCurve(law, value("heat_capacity"), reference);
 }
 
+void convertFailure(DeckChecker const &check, LawNumbers const &value, std::string const &path, Material &law)
+{
+  FailureLaw &failure = law.failure;
+  if (value("spall_pressure") > 0.0)
+    failure.spall_pressure = value("spall_pressure");
+  if (value("spall_stress") > 0.0)
+    failure.spall_stress = value("spall_stress");
+  check.require(failure.spall_pressure >= no_limit || failure.spall_pressure <= law.tension_limit,
+                keyPath(path, "spall_pressure"),
+                numberText(failure.spall_pressure) + " is never reached: tension_limit = " +
+                    numberText(law.tension_limit) + " cuts the tension off; expected: at most that");
+  ParameterList const &list = value.list;
+  failure.damages = list.isParameter("damage") && list.get<std::string>("damage") == "johnson-cook";
+  char const *const key[5] = {"D1", "D2", "D3", "D4", "D5"};
+  for (int i = 0; failure.damages && i < 5; ++i)
+    failure.d[i] = value(key[i]);
+}
+
+/// \throw DeckError where damage would have to share its place in the remap.
+void checkDamage(DeckChecker const &check, Deck const &deck)
+{
+  for (LawSpec const &law : deck.laws)
+    check.require(!canFail(law.law) || !deck.remap.return_kinetic_defect, "numerics/remap/return_kinetic_defect",
+                  "true does not go with materials that can fail (" + law.name +
+                      "): the remap carries their damage in its place; expected: false");
+}
+
 void convertLaws(DeckChecker const &check, ParameterList const &materials, Deck &deck)
 {
   for (auto i = materials.begin(); i != materials.end(); ++i)
@@ -125,6 +153,7 @@ void convertLaws(DeckChecker const &check, ParameterList const &materials, Deck 
     convertStrength(check, value, path, law);
     if (value("tension_limit") > 0.0)
       law.tension_limit = value("tension_limit");
+    convertFailure(check, value, path, law);
     deck.laws.push_back(spec);
   }
 }
@@ -280,6 +309,7 @@ void checkPrescribed(DeckChecker const &check, ParameterList const &complete, De
     check.require(!deck.laws[body.law].rigid, keyPath(path, "material"), "a rigid law" + why);
     check.require(body.velocity[0] == 0.0 && body.velocity[1] == 0.0, keyPath(path, "velocity"), "it" + why);
     check.require(body.angular_velocity == 0.0, keyPath(path, "angular_velocity"), "it" + why);
+    check.require(body.radial_velocity == 0.0, keyPath(path, "radial_velocity"), "it" + why);
     check.require(body.density == deck.laws[body.law].law.density0, keyPath(path, "density"),
                   "with a prescribed_velocity the density is and stays that of the law");
   }
@@ -359,7 +389,7 @@ double speedScale(Deck const &deck)
   double speed = std::sqrt(std::hypot(g[0], g[1]) * std::hypot(deck.x.to - deck.x.from, deck.y.to - deck.y.from));
   double sound = 0.0;
   for (BodySpec const &body : deck.bodies)
-    speed = std::max(speed, std::hypot(body.velocity[0], body.velocity[1]));
+    speed = std::max(speed, std::max(std::hypot(body.velocity[0], body.velocity[1]), std::fabs(body.radial_velocity)));
   for (Boundary const &boundary : deck.boundary)
     speed = std::max(speed, std::hypot(boundary.velocity[0], boundary.velocity[1]));
   for (BodySpec const &body : deck.bodies)
@@ -393,6 +423,14 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   deck.y = axisOf(check, complete.sublist("mesh").sublist("y"), "mesh/y");
   deck.jitter = complete.sublist("mesh").get<double>("jitter");
   deck.jitter_seed = complete.sublist("mesh").get<int>("jitter_seed");
+  if (complete.sublist("mesh").isParameter("file"))
+  {
+    check.require(deck.kinematics == Kinematics::Lagrangian, "mesh/file",
+                  "the mesh of another kinematics than lagrangian is its grid; expected: no file");
+    std::size_t const slash = file.find_last_of('/');
+    std::string const name = complete.sublist("mesh").get<std::string>("file");
+    deck.mesh_file = name[0] == '/' || slash == std::string::npos ? name : file.substr(0, slash + 1) + name;
+  }
   ParameterList const &smoother = complete.sublist("mesh").sublist("smoother");
   deck.smoother = {smoother.get<double>("follow"), smoother.get<double>("relax")};
   check.require(!deck.smoother.moves() || deck.kinematics != Kinematics::Lagrangian, "mesh/smoother",
@@ -408,6 +446,7 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   convertBoundaries(check, complete.sublist("boundaries"), deck);
   convertInteractions(check, complete.sublist("interactions"), deck);
   convertNumerics(check, complete.sublist("numerics"), deck);
+  checkDamage(check, deck);
   convertPrescribed(check, complete, deck);
   if (deck.geometry == Geometry::Axisymmetric)
     checkAxisymmetric(check, deck);

@@ -164,7 +164,7 @@ bool belongsElsewhere(std::vector<SchemaKey> const &keys, std::string const &nam
 }
 
 /// Replace `from: FILE` in the deck's materials by the keys of that file. The deck's own keys win; where it chooses
-/// another eos or strength than the file, the file's keys for the old one are left out.
+/// another eos, strength or damage than the file, the file's keys for the old one are left out.
 void includeMaterials(ParameterList &deck, std::string const &file, TextReader const &read)
 {
   if (!deck.isSublist("materials"))
@@ -186,7 +186,7 @@ void includeMaterials(ParameterList &deck, std::string const &file, TextReader c
     ParameterList merged = parseYaml(read(path), path);
     if (merged.name() != "material")
       throw DeckError(path + ": outermost key is " + merged.name() + "; expected: material");
-    bool const chooses = own.isParameter("eos") || own.isParameter("strength");
+    bool const chooses = own.isParameter("eos") || own.isParameter("strength") || own.isParameter("damage");
     merged.setParameters(own);
     merged.remove("from");
     if (keys.empty())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DeckSchema.hpp>
 
+#include <detail/Harmos_SchemaRules.hpp>
+
 #include <Harmos_ConstraintOptions.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Reconstruct.hpp>
@@ -13,84 +15,10 @@
 namespace Harmos
 {
 
+using namespace SchemaRules;
+
 namespace
 {
-
-using Teuchos::ParameterList;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-KeyRange const any{};
-KeyRange const positive{0.0, infinity, true, false};
-KeyRange const not_negative{0.0, infinity, false, false};
-
-KeyRange between(double min, double max)
-{
-  return {min, max, false, false};
-}
-
-template <class T>
-void add(ParameterList &list, std::string const &name, T const &value, KeyRules const &rules, std::string const &doc)
-{
-  Teuchos::RCP<Teuchos::ParameterEntryValidator const> const validator = Teuchos::rcp(new DeckKeyValidator(rules));
-  // set() also validates the default; the value of a key without one only fixes its type.
-  if (rules.presence == Presence::Default)
-    list.set(name, value, doc, validator);
-  else
-    list.setEntry(name, Teuchos::ParameterEntry(value, true, false, doc, validator));
-}
-
-KeyRules rulesOf(KeyType type, KeyRange const &range = any, std::string const &unit = "")
-{
-  KeyRules rules;
-  rules.type = type;
-  rules.range = range;
-  rules.unit = unit;
-  return rules;
-}
-
-KeyRules required(KeyRules rules)
-{
-  rules.presence = Presence::Required;
-  return rules;
-}
-
-KeyRules optional(KeyRules rules, std::string const &note)
-{
-  rules.presence = Presence::Optional;
-  rules.default_note = note;
-  return rules;
-}
-
-KeyRules number(KeyRange const &range, std::string const &unit = "")
-{
-  return rulesOf(KeyType::Number, range, unit);
-}
-
-KeyRules integer(KeyRange const &range)
-{
-  return rulesOf(KeyType::Integer, range);
-}
-
-KeyRules numbers(int least, int most, std::string const &unit, KeyRange const &range = any)
-{
-  KeyRules rules = rulesOf(KeyType::Numbers, range, unit);
-  rules.least_length = least;
-  rules.most_length = most;
-  return rules;
-}
-
-KeyRules choice(std::vector<std::string> const &words)
-{
-  KeyRules rules = rulesOf(KeyType::Choice);
-  rules.choices = words;
-  return rules;
-}
-
-Teuchos::Array<double> pair(double x, double y)
-{
-  return Teuchos::tuple(x, y);
-}
 
 void addTop(ParameterList &list)
 {
@@ -115,6 +43,10 @@ void addMesh(ParameterList &mesh)
   }
   add(mesh, "jitter", 0.0, number({0.0, 0.25, false, true}),
       "inner nodes move at random by up to this part of the smaller cell beside them, in x and in y");
+  add(mesh, "file", std::string(), optional(rulesOf(KeyType::Text), "no file"),
+      "lagrangian: Gmsh mesh of quadrilaterals (MSH 2.2 or 4.1, ASCII), from the deck's folder: bodies of shape mesh "
+      "part "
+      "are its physical surfaces; physical curves named left, right, bottom, top are boundaries");
   add(mesh, "jitter_seed", 1, integer(not_negative), "of the random numbers");
   ParameterList &smoother = mesh.sublist("smoother");
   add(smoother, "follow", 0.0, number(between(0.0, 1.0)),
@@ -175,119 +107,13 @@ void addPrescribedVelocity(ParameterList &list)
   }
 }
 
-void addModulus(ParameterList &list)
-{
-  add(list, "shear_modulus", 0.0, required(number(positive, "Pa")), "shear modulus of the reference state");
-}
-
-void addYield(ParameterList &list)
-{
-  addModulus(list);
-  add(list, "yield_stress", 0.0, required(number(positive, "Pa")), "initial yield stress in simple tension");
-}
-
-void addTemperature(ParameterList &list)
-{
-  add(list, "heat_capacity", 0.0, required(number(positive, "J/(kg K)")), "at constant volume");
-  add(list, "reference_temperature", 300.0, number(positive, "K"), "of the reference density and energy");
-  add(list, "melting_temperature", 0.0, required(number(positive, "K")),
-      "where the yield stress is gone; above the reference temperature");
-}
-
-void addStrength(ParameterList &list)
-{
-  add(list, "strength", std::string("none"),
-      choice({"none", "elastic", "plastic", "power hardening", "johnson-cook", "steinberg-guinan"}),
-      "none: a fluid; elastic: linear deviator; else von Mises, radial return. plastic: linear hardening; power "
-      "hardening: Y = yield_stress + hardening_modulus eps^hardening_exponent; johnson-cook: that times (1 + "
-      "rate_coefficient ln rate) (1 - T*^softening_exponent); steinberg-guinan: modulus and yield stress with pressure "
-      "and temperature");
-  addModulus(list.sublist("strength = elastic"));
-  ParameterList &plastic = list.sublist("strength = plastic");
-  addYield(plastic);
-  add(plastic, "hardening_modulus", 0.0, number(not_negative, "Pa"),
-      "growth of the yield stress per equivalent plastic strain; 0: perfectly plastic");
-  for (char const *law : {"power hardening", "johnson-cook"})
-  {
-    ParameterList &power = list.sublist(std::string("strength = ") + law);
-    addYield(power);
-    add(power, "hardening_modulus", 0.0, required(number(not_negative, "Pa")), "factor of eps^hardening_exponent");
-    add(power, "hardening_exponent", 0.0, required(number({0.0, 2.0, true, false})), "exponent of the plastic strain");
-  }
-  ParameterList &johnson_cook = list.sublist("strength = johnson-cook");
-  add(johnson_cook, "rate_coefficient", 0.0, number(not_negative),
-      "growth of the yield stress with the logarithm of the plastic strain rate");
-  add(johnson_cook, "reference_rate", 1.0, number(positive, "1/s"), "below it the rate has no effect");
-  add(johnson_cook, "softening_exponent", 0.0, required(number(positive)),
-      "exponent of T* = (T - reference_temperature) / (melting_temperature - reference_temperature)");
-  addTemperature(johnson_cook);
-  ParameterList &steinberg = list.sublist("strength = steinberg-guinan");
-  addYield(steinberg);
-  add(steinberg, "largest_yield_stress", 0.0, required(number(positive, "Pa")),
-      "limit of the work hardening, before pressure and temperature");
-  add(steinberg, "hardening_coefficient", 0.0, required(number(not_negative)),
-      "beta in Y = yield_stress (1 + beta (eps + initial_plastic_strain))^hardening_exponent");
-  add(steinberg, "hardening_exponent", 0.0, required(number(not_negative)), "n");
-  add(steinberg, "initial_plastic_strain", 0.0, number(not_negative), "work hardening before the run");
-  add(steinberg, "pressure_coefficient", 0.0, required(number(not_negative, "1/Pa")),
-      "A in G / G0 = 1 + A p (rho / rho0)^(-1/3) - B (T - 300 K)");
-  add(steinberg, "temperature_coefficient", 0.0, required(number(not_negative, "1/K")), "B there");
-  addTemperature(steinberg);
-  add(steinberg, "melting_exponent", 0.0, required(number(not_negative)),
-      "a in T_m = melting_temperature exp(2 a (1 - rho0 / rho)) (rho / rho0)^(2 (gruneisen - a - 1/3))");
-}
-
-void addTillotson(ParameterList &list)
-{
-  add(list, "bulk_modulus", 0.0, required(number(positive, "Pa")), "A of Tillotson; with density the sound speed");
-  add(list, "quadratic_modulus", 0.0, required(number(not_negative, "Pa")), "B of Tillotson");
-  add(list, "a", 0.0, required(number(not_negative)), "Grueneisen coefficient of the hot, thin vapour");
-  add(list, "b", 0.0, required(number(not_negative)), "a + b: Grueneisen coefficient of the cold solid");
-  add(list, "alpha", 5.0, number(not_negative), "decay of the solid's terms in the vapour");
-  add(list, "beta", 5.0, number(not_negative), "decay of the elastic term in the vapour");
-  add(list, "vapour_energy", 0.0, required(number(positive, "J/kg")), "E0 of Tillotson");
-  add(list, "incipient_vaporisation", 0.0, required(number(positive, "J/kg")), "energy where vapour begins to form");
-  add(list, "complete_vaporisation", 0.0, required(number(positive, "J/kg")),
-      "energy where all is vapour, above incipient_vaporisation");
-}
-
-void addMaterials(ParameterList &materials)
-{
-  ParameterList &list = materials.sublist("NAME");
-  add(list, "eos", std::string(), required(choice({"stiffened", "mie-gruneisen", "tillotson", "ideal gas", "rigid"})),
-      "stiffened: p = c0^2 (rho - rho0) + gruneisen rho (e - e0); mie-gruneisen: Hugoniot Us = c0 + slope up; "
-      "tillotson: solid to vapour; ideal gas: p = (gamma - 1) rho e; rigid: moves as a rigid body");
-  add(list, "density", 0.0, required(number(positive, "kg/m^3")), "reference density rho0");
-  for (char const *eos : {"stiffened", "mie-gruneisen", "tillotson"})
-  {
-    ParameterList &solid = list.sublist(std::string("eos = ") + eos);
-    if (eos == std::string("tillotson"))
-      addTillotson(solid);
-    else
-      add(solid, "sound_speed", 0.0, required(number(positive, "m/s")), "bulk sound speed c0 of the reference state");
-    if (eos == std::string("mie-gruneisen"))
-      add(solid, "slope", 0.0, required(number(not_negative)), "slope of shock over particle velocity");
-    if (eos != std::string("tillotson"))
-    {
-      add(solid, "gruneisen", 0.0, number(not_negative), "Grueneisen coefficient of the reference state");
-      add(solid, "internal_energy", 0.0, number(any, "J/kg"), "internal energy e0 of the reference state");
-    }
-    add(solid, "tension_limit", 0.0, number(not_negative, "Pa"),
-        "the pressure does not fall below minus this (spall strength; the material then stretches without more "
-        "resistance); 0: no limit");
-    addStrength(solid);
-  }
-  ParameterList &gas = list.sublist("eos = ideal gas");
-  add(gas, "gamma", 0.0, required(number({1.0, infinity, true, false})), "ratio of specific heats");
-  add(gas, "internal_energy", 0.0, number(not_negative, "J/kg"), "internal energy that bodies start with by default");
-  add(list, "from", std::string(), optional(rulesOf(KeyType::Text), "no file"),
-      "file with the keys of a law, from the deck's folder (example/materials has a library); the keys given here win");
-}
-
 void addShapes(ParameterList &list)
 {
-  add(list, "shape", std::string(), required(choice({"rectangle", "disc", "annulus", "polygon", "half-plane"})),
-      "outline of the body");
+  add(list, "shape", std::string(),
+      required(choice({"rectangle", "disc", "annulus", "polygon", "half-plane", "mesh part"})),
+      "outline of the body; mesh part: a physical surface of mesh/file (lagrangian)");
+  add(list.sublist("shape = mesh part"), "part", std::string(), required(rulesOf(KeyType::Text)),
+      "name of the physical surface");
   ParameterList &rectangle = list.sublist("shape = rectangle");
   add(rectangle, "center", pair(0.0, 0.0), required(numbers(2, 2, "m")), "centre");
   add(rectangle, "size", pair(0.0, 0.0), required(numbers(2, 2, "m", positive)), "width and height before rotation");
@@ -317,6 +143,13 @@ void addBodies(ParameterList &bodies)
   add(list, "shift", pair(0.0, 0.0), numbers(2, 2, "m"), "displacement after the rotation");
   add(list, "velocity", pair(0.0, 0.0), numbers(2, 2, "m/s"), "initial velocity of the centre");
   add(list, "angular_velocity", 0.0, number(any, "rad/s"), "initial rotation about the centre");
+  add(list, "radial_velocity", 0.0, number(any, "m/s"),
+      "initial speed away from radial_center, at the distance radial_radius from it");
+  add(list, "radial_center", pair(0.0, 0.0), optional(numbers(2, 2, "m"), "the body's centre"),
+      "where the radial velocity leads away from");
+  add(list, "radial_radius", 1.0, number(positive, "m"), "where the radial velocity is radial_velocity");
+  add(list, "radial_exponent", 0.0, number(between(-10.0, 10.0)),
+      "the radial velocity varies with this power of the distance: -1 keeps the area of rings, 1 is uniform expansion");
   addState(list, "the body at the start");
   add(list, "cut", false, rulesOf(KeyType::Bool), "cut this body out of the bodies before it");
   add(list, "join", std::string(), optional(rulesOf(KeyType::Name), "a velocity field of its own"),
@@ -326,6 +159,10 @@ void addBodies(ParameterList &bodies)
   add(list, "cells", Teuchos::Array<double>(Teuchos::tuple(1.0, 1.0)),
       optional(numbers(2, 2, "", {1.0, 1e6, false, false}), "from the size of the mesh's cells"),
       "lagrangian: cells of the block along its first and second side");
+  add(list, "cells_grading", pair(1.0, 1.0), numbers(2, 2, "", positive),
+      "lagrangian: size of the last cell over the first along the same sides");
+  add(list, "arc_radii", Teuchos::Array<double>(4, 0.0), optional(numbers(4, 4, "m"), "straight"),
+      "lagrangian: the block's sides as arcs with these radii; 0: straight, positive: bulging outwards");
 }
 
 void addInteractions(ParameterList &list)

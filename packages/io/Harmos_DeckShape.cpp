@@ -95,6 +95,11 @@ ShapeSpec shapeOf(DeckChecker const &check, Teuchos::ParameterList const &list, 
     check.require(length > 0.0, keyPath(path, "normal"), "[0.0, 0.0] has no direction");
     shape.normal = {normal[0] / length, normal[1] / length};
   }
+  else if (kind == "mesh part")
+  {
+    shape.kind = ShapeKind::MeshPart;
+    shape.part = list.get<std::string>("part");
+  }
   else
     shape.center = vectorOf(list, "center");
   if (kind == "rectangle")

@@ -32,6 +32,7 @@ FieldFrame readFrame(std::string const &path, int number)
   frame.pairs = file.readAttribute<long long>("/", "num_pairs");
   frame.vertices = file.readAttribute<long long>("/", "num_vertices");
   frame.segments = file.readAttribute<long long>("/", "num_segments");
+  frame.has_damage = file.exists("/pairs/damage");
   return frame;
 }
 
@@ -116,6 +117,8 @@ std::string pairGrid(std::string const &file, FieldFrame const &frame)
       attribute(file, "pairs", "material", "Cell", frame.pairs, false, true);
   for (char const *name : {"volume_fraction", "density", "pressure", "internal_energy", "plastic_strain", "von_mises"})
     text += attribute(file, "pairs", name, "Cell", frame.pairs, false, false);
+  if (frame.has_damage)
+    text += attribute(file, "pairs", "damage", "Cell", frame.pairs, false, false);
   for (char const *name : {"velocity", "deviator"})
     text += attribute(file, "pairs", name, "Cell", frame.pairs, true, false);
   return grid("pairs", text);
@@ -193,6 +196,7 @@ void FieldOutput::write(long long cycle, double time, FieldSnapshot const &snaps
   frame.pairs = fields.pair_order.total();
   frame.vertices = fields.vertices.total;
   frame.segments = fields.segment_order.total();
+  frame.has_damage = snapshot.pairs.has_damage;
 
   std::string const stem = frameStem(frame.number), path = directory_ + '/' + stem + ".h5";
   writeFieldFile(comm_, path + ".tmp", fields, frame, material_names_);

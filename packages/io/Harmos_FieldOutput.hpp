@@ -19,6 +19,7 @@ struct FieldFrame
   double time = 0.0;
   int axisymmetric = 0; // 1: x is the radius, y the axis
   long long nodes = 0, cells = 0, pairs = 0, vertices = 0, segments = 0;
+  bool has_damage = false; // its pairs have a table `damage`
 };
 
 struct FieldOutputOptions

@@ -5,6 +5,7 @@
 
 #include <detail/Harmos_InterfaceSegments.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Harmos
@@ -24,8 +25,7 @@ struct HostState
 {
   decltype(onHost(View<double *[2]>())) node_position, velocity;
   decltype(onHost(View<int *[4]>())) cell_node, face_neighbour, face_boundary, dof_node;
-  decltype(onHost(View<double *>())) cell_area;
-  decltype(onHost(View<double *>())) cell_volume;
+  decltype(onHost(View<double *>())) cell_area, cell_volume, damage;
   decltype(onHost(View<int *>())) cell_depth, node_owned, offset, material, cell, cell_region, dof_offset;
   decltype(onHost(View<long long *>())) cell_global, node_global;
   decltype(onHost(View<double *[num_pair_fields]>())) record;
@@ -128,6 +128,8 @@ void addPair(HostState const &h, int pair, FieldSnapshot::Pairs &pairs)
   pairs.deviator.insert(pairs.deviator.end(), {xx, yy, xy});
   pairs.von_mises.push_back(std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2.0 * xy * xy)));
   pairs.velocity.insert(pairs.velocity.end(), {v[0], v[1], 0.0});
+  if (pairs.has_damage)
+    pairs.damage.push_back(std::min(h.damage(pair), 1.0));
 }
 
 void addSegments(HostState const &h, int pair, FieldSnapshot::Interface &interface)
@@ -212,6 +214,7 @@ FieldSnapshot takeSnapshot(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
   h.face_boundary = onHost(mesh.face_boundary);
   h.dof_node = onHost(pairs.dof_node);
   h.cell_area = onHost(mesh.cell_area);
+  h.damage = onHost(state.damage);
   h.cell_volume = onHost(mesh.cell_volume);
   h.cell_depth = onHost(mesh.cell_depth);
   h.node_owned = onHost(mesh.node_owned);
@@ -227,6 +230,7 @@ FieldSnapshot takeSnapshot(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
   h.law = onHost(materials);
 
   FieldSnapshot snapshot;
+  snapshot.pairs.has_damage = state.tracks_damage;
   snapshot.geometry = mesh.geometry;
   addNodes(h, mesh.num_nodes, dof_nodes.num_dof_nodes, pairs.num_pairs, snapshot.nodes);
   for (int c = 0; c < mesh.num_cells; ++c)

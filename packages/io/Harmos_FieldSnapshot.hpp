@@ -49,6 +49,8 @@ struct FieldSnapshot
     std::vector<double> deviator;  // (pairs, 3): xx, yy, xy
     std::vector<double> von_mises; // sqrt(3/2 s:s)
     std::vector<double> velocity;  // (pairs, 3), mean of its four dof nodes
+    bool has_damage = false;
+    std::vector<double> damage; // where the run tracks it, else empty: 0 sound .. 1 failed
   } pairs;
 
   /// Edges where two materials face each other (a < b), and free surfaces (b = -1).

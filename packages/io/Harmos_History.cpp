@@ -15,7 +15,7 @@ std::string historyHeader(std::vector<std::string> const &material_names)
       "residual";
   for (auto const &name : material_names)
     for (char const *column : {"mass", "volume", "momentum_x", "momentum_y", "kinetic_energy", "internal_energy",
-                               "x_min", "x_max", "y_min", "y_max", "plastic_strain_max"})
+                               "x_min", "x_max", "y_min", "y_max", "plastic_strain_max", "failed_mass"})
       header += ',' + name + '.' + column;
   return header + ",returned_heat";
 }
@@ -62,7 +62,7 @@ void History::write(HistoryRow const &row)
   appendValue(line, row.residual);
   for (auto const &m : row.material)
     for (double value : {m.mass, m.volume, m.momentum_x, m.momentum_y, m.kinetic_energy, m.internal_energy, m.x_min,
-                         m.x_max, m.y_min, m.y_max, m.plastic_strain_max})
+                         m.x_max, m.y_min, m.y_max, m.plastic_strain_max, m.failed_mass})
       appendValue(line, value);
   appendValue(line, row.returned_heat);
   file_->append(line + '\n');

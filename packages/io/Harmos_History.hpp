@@ -22,6 +22,7 @@ struct HistoryMaterial
   double x_min = 0.0, x_max = 0.0;           // extent of the filled regions [m]
   double y_min = 0.0, y_max = 0.0;
   double plastic_strain_max = 0.0;
+  double failed_mass = 0.0; // of its pairs that have failed [kg/m]
 };
 
 /// One row of history.csv. Losses, created volumes, work, impulses and outflows are sums since the start of the run.

@@ -5,9 +5,11 @@ namespace Harmos
 {
 
 char const *const PointLog::probe_header =
-    "cycle,time,name,material,density,pressure,velocity_x,velocity_y,internal_energy,plastic_strain,von_mises";
+    "cycle,time,name,material,density,pressure,velocity_x,velocity_y,internal_energy,plastic_strain,von_mises,"
+    "damage";
 char const *const PointLog::tracer_header =
-    "cycle,time,name,x,y,velocity_x,velocity_y,material,density,pressure,internal_energy,plastic_strain,von_mises";
+    "cycle,time,name,x,y,velocity_x,velocity_y,material,density,pressure,internal_energy,plastic_strain,von_mises,"
+    "damage";
 
 PointLog::PointLog(std::string const &path, std::string const &header, bool writes, CsvStart start)
 {

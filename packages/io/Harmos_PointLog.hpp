@@ -18,7 +18,7 @@ struct PointEntry
   std::vector<double> place; // tracers: x, y, velocity_x, velocity_y; probes: nothing
   std::string material;      // "void", "outside" (of the mesh), or a name
   std::vector<double> state; // probes: density, pressure, velocity_x, velocity_y, internal_energy, plastic_strain,
-                             // von_mises; tracers: the same without the velocity
+                             // von_mises, damage; tracers: the same without the velocity
 };
 
 /// probes.csv and tracers.csv, long form: a line for each point: cycle,time,name,...

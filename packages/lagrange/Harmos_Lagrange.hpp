@@ -37,6 +37,14 @@ struct LagrangeWork
   View<double *[2]> predicted;    // num_dof_nodes: v* = v^{n-1/2} + dt a^n, node conditions applied
   View<double *[2]> half;         // num_dof_nodes: v^{n+1/2}, after the constraints
   View<double *> node_altitude;   // num_nodes: least altitude of the cells around [length]
+  View<double *[2]> before;       // num_pairs, BeforeField: what failPairs needs of time n
+};
+
+/// Columns of LagrangeWork::before.
+enum BeforeField : int
+{
+  BeforeSpecificVolume = 0,
+  BeforePlasticStrain = 1
 };
 
 /// Largest stable time step and the pair that sets it.
@@ -176,6 +184,27 @@ void closeMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState
 UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, double dt,
                          LagrangeWork const &work, TimeStepLimit &next);
+
+/// Specific volume and plastic strain of time n -> work.before, for failPairs; nothing where no damage is tracked.
+void keepForFailure(CellMaterialPairs const &pairs, PairState const &state, LagrangeWork &work);
+
+/// What failPairs did.
+struct FailureReport
+{
+  long long failed = 0;           // owned pairs that failed in this step
+  bool fractions_changed = false; // of some cell on this rank: its regions must be reconstructed before the remap
+};
+
+/// After updatePairs: the damage of the pairs whose law can fail (damageAfter), and what failed pairs do. They have
+/// no deviator, and no tension: where p(sv, e) < 0 the pair takes the volume at which p = 0, and its fraction falls by
+/// the same factor: void opens. Mass, momentum and energy of the pair stay (what elastic energy it had is heat). When
+/// it is compressed, void in its cell closes first. A pure cell that opens becomes mixed.
+///
+/// \param void_closes False where closeMixedCells has already closed it.
+/// \param pairs cell_kind comes in a new view where kinds change.
+/// In `lagrangian` kinematics a cell keeps its region; its volume fraction is then the part that is no void.
+FailureReport failPairs(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs &pairs, PairState const &state,
+                        View<Material *> const &materials, bool void_closes, double dt, LagrangeWork const &work);
 
 /// Largest stable step of the owned pairs at state.velocity and x^n (needs work.dof_mass); ties: the lowest pair.
 ///

@@ -40,6 +40,18 @@ struct FlowLaw
   double melting_exponent = 0.0;        // a
 };
 
+/// A stress that is never reached.
+constexpr double no_limit = 1e300;
+
+/// When a pair fails (Harmos_Failure.hpp): a failed one carries neither tension nor shear.
+struct FailureLaw
+{
+  double spall_pressure = no_limit; // at p <= -spall_pressure [Pa]
+  double spall_stress = no_limit;   // at a largest principal stress >= spall_stress [Pa]
+  bool damages = false;             // Johnson-Cook damage, needs a temperature
+  double d[5] = {};                 // D1 .. D5 of it
+};
+
 /// Tillotson, General Atomic report GA-3216 (1962). Material::sound_speed0 is sqrt(bulk / density0).
 struct TillotsonLaw
 {
@@ -81,6 +93,7 @@ struct Material
   double tension_limit = 1e300; // pressure does not fall below -tension_limit [Pa]
   int rigid_body = -1;          // number of the rigid body that this material is; -1: deformable
   FlowLaw flow;
+  FailureLaw failure;
   TillotsonLaw tillotson;
   ThermalCurve thermal;
 };

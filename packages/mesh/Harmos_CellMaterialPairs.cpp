@@ -210,6 +210,9 @@ NodeMaterialPairs buildDofNodes(Mesh const &mesh, Kinematics kinematics, View<do
   builder.cell_set = uninitialised<View<MaterialSet *>>("Harmos::mesh::cell_set", mesh.num_cells);
   builder.node_set = uninitialised<View<MaterialSet *>>("Harmos::mesh::node_set", mesh.num_nodes);
   classifyCells(builder, pairs, record);
+  // Each body-fitted cell is its pair's; a fraction below one is void inside of it.
+  if (kinematics == Kinematics::Lagrangian)
+    Kokkos::deep_copy(pairs.cell_kind, static_cast<int>(PureCell));
 
   NodeMaterialPairs dof_nodes;
   dof_nodes.offset = uninitialised<View<int *>>("Harmos::mesh::dof_offset", mesh.num_nodes + 1);

@@ -22,11 +22,11 @@ enum CellKind : int
 struct CellMaterialPairs
 {
   int num_pairs = 0;
-  View<int *> offset;        // num_cells + 1
-  View<int *> material;      // num_pairs
-  View<int *> cell;          // num_pairs
-  View<int *[4]> dof_node;   // num_pairs: the dof nodes at the cell's four corners
-  View<int *> cell_kind;     // num_cells, CellKind
+  View<int *> offset;      // num_cells + 1
+  View<int *> material;    // num_pairs
+  View<int *> cell;        // num_pairs
+  View<int *[4]> dof_node; // num_pairs: the dof nodes at the cell's four corners
+  View<int *> cell_kind;   // num_cells, CellKind
 
   /// The pair of a material in a cell, or -1.
   KOKKOS_INLINE_FUNCTION int find(int in_cell, int of_material) const
@@ -79,6 +79,8 @@ struct PairState
   View<double *[num_pair_fields]> record; // num_pairs
   View<double *[2]> centroid;             // num_pairs: of the filled region [length]; valid in mixed cells only
   View<double *[2]> velocity;             // num_dof_nodes, v^{n-1/2} at the start of a cycle [m/s]
+  bool tracks_damage = false;             // some law can fail
+  View<double *> damage = {};             // num_pairs where tracked (Harmos_Failure.hpp), else nothing
 };
 
 /// The kind of a cell from its pairs: pure where one pair fills it.

@@ -89,6 +89,45 @@ void requireAscending(std::vector<double> const &x, std::string const &name)
   }
 }
 
+bool hasArcs(MappedBlock const &block)
+{
+  return std::any_of(block.arc_radius.begin(), block.arc_radius.end(), [](double r) { return r != 0.0; });
+}
+
+/// The point at part s of the side from corner a to b of a block that lies on its left.
+Corner onSide(Corner const &a, Corner const &b, double radius, double s)
+{
+  Corner const chord = {b[0] - a[0], b[1] - a[1]};
+  if (radius == 0.0)
+    return {a[0] + s * chord[0], a[1] + s * chord[1]};
+  double const length = std::hypot(chord[0], chord[1]);
+  double const half_angle = std::asin(0.5 * length / radius); // of the sign of the radius
+  // height of the arc over its chord, outwards, and the part of the chord below
+  double const angle = (2.0 * s - 1.0) * half_angle;
+  double const height = radius * (std::cos(angle) - std::cos(half_angle)) / length;
+  double const along = 0.5 + radius * std::sin(angle) / length;
+  return {a[0] + along * chord[0] + height * chord[1], a[1] + along * chord[1] - height * chord[0]};
+}
+
+/// A point of a block with arcs (MappedBlock).
+Corner transfinite(MappedBlock const &block, double xi, double eta)
+{
+  auto const &q = block.corner;
+  auto const &r = block.arc_radius;
+  // sides 2 and 3 are run through backwards
+  Corner const side[4] = {onSide(q[0], q[1], r[0], xi), onSide(q[1], q[2], r[1], eta),
+                          onSide(q[2], q[3], r[2], 1.0 - xi), onSide(q[3], q[0], r[3], 1.0 - eta)};
+  double const N[4] = {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
+  Corner point;
+  for (int d = 0; d < 2; ++d)
+  {
+    point[d] = (1.0 - eta) * side[0][d] + eta * side[2][d] + (1.0 - xi) * side[3][d] + xi * side[1][d];
+    for (int k = 0; k < 4; ++k)
+      point[d] -= N[k] * q[k][d];
+  }
+  return point;
+}
+
 void requireBlock(std::vector<MappedBlock> const &blocks, std::size_t b)
 {
   std::string const name = "block " + std::to_string(b);
@@ -98,9 +137,19 @@ void requireBlock(std::vector<MappedBlock> const &blocks, std::size_t b)
   require(bad < 0, name + ": corner " + std::to_string(bad) + " at " + text(block.corner[bad < 0 ? 0 : bad]) +
                        " is not strictly convex (corners run counter-clockwise)");
   double const size = std::hypot(block.corner[2][0] - block.corner[0][0], block.corner[2][1] - block.corner[0][1]);
+  for (int k = 0; k < 4; ++k)
+  {
+    Corner const &from = block.corner[k], &to = block.corner[(k + 1) % 4];
+    double const half = 0.5 * std::hypot(to[0] - from[0], to[1] - from[1]);
+    double const radius = std::fabs(block.arc_radius[k]);
+    require(radius == 0.0 || radius >= half, name + ": side " + std::to_string(k) + " cannot be an arc of radius " +
+                                                 std::to_string(radius) + "; expected: at least half of its length, " +
+                                                 std::to_string(half));
+  }
   for (std::size_t other = 0; other < b; ++other)
-    require(std::max(separation(block.corner, blocks[other].corner), separation(blocks[other].corner, block.corner)) >=
-                -1e-10 * size,
+    require(hasArcs(block) || hasArcs(blocks[other]) ||
+                std::max(separation(block.corner, blocks[other].corner),
+                         separation(blocks[other].corner, block.corner)) >= -1e-10 * size,
             name + " overlaps block " + std::to_string(other));
 }
 
@@ -254,11 +303,19 @@ BlockMesh mappedBlocks(std::vector<MappedBlock> const &blocks)
     int const nx = blocks[b].cells[0];
     int const ny = blocks[b].cells[1];
     int const first_node = static_cast<int>(result.mesh.node.size());
+    std::vector<double> const at_xi = gradedCoordinates(0.0, 1.0, nx, blocks[b].grading[0]);
+    std::vector<double> const at_eta = gradedCoordinates(0.0, 1.0, ny, blocks[b].grading[1]);
+    bool const arcs = hasArcs(blocks[b]);
     for (int j = 0; j <= ny; ++j)
       for (int i = 0; i <= nx; ++i)
       {
-        double const xi = static_cast<double>(i) / nx;
-        double const eta = static_cast<double>(j) / ny;
+        double const xi = at_xi[i];
+        double const eta = at_eta[j];
+        if (arcs)
+        {
+          result.mesh.node.push_back(transfinite(blocks[b], xi, eta));
+          continue;
+        }
         double const N[4] = {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
         Corner point{0.0, 0.0};
         for (int d = 0; d < 2; ++d)

@@ -55,11 +55,18 @@ std::vector<double> gradedCoordinates(double from, double to, int cells, double 
 
 using Corner = std::array<double, 2>;
 
-/// A quadrilateral to be meshed bilinearly: x(xi, eta) = sum N_I(xi, eta) corner_I.
+/// A quadrilateral to be meshed. Straight sides: bilinearly, x(xi, eta) = sum N_I(xi, eta) corner_I; else by
+/// transfinite interpolation of the sides c_0 (corner 0 -> 1), c_1 (1 -> 2), c_2 (3 -> 2), c_3 (0 -> 3): x = (1 - eta)
+/// c_0(xi) + eta c_2(xi) + (1 - xi) c_3(eta) + xi c_1(eta) - sum N_I corner_I. Gordon & Hall, Int. J. Numer. Meth.
+/// Engng 7 (1973) 461-477.
 struct MappedBlock
 {
-  std::array<Corner, 4> corner; // counter-clockwise, strictly convex [length]
-  std::array<int, 2> cells;     // along corner 0 -> 1 and along corner 0 -> 3
+  std::array<Corner, 4> corner;             // counter-clockwise, strictly convex [length]
+  std::array<int, 2> cells;                 // along corner 0 -> 1 and along corner 0 -> 3
+  std::array<double, 2> grading = {1., 1.}; // last cell over first, likewise (gradedCoordinates)
+  // radius of the arc from corner k to k + 1: 0 straight, positive bulging outwards, negative inwards; at least half
+  // of the chord [length]
+  std::array<double, 4> arc_radius = {0., 0., 0., 0.};
 };
 
 struct BlockMesh
@@ -72,8 +79,8 @@ struct BlockMesh
 ///
 /// Cells and nodes are numbered block by block, row-wise within a block. Boundary numbers: 4 * block + side, side 0
 /// left (corners 3, 0), 1 right (1, 2), 2 bottom (0, 1), 3 top (2, 3).
-/// \throw std::runtime_error where a block is not strictly convex, has no cells, or overlaps another (touching is
-///        allowed).
+/// \throw std::runtime_error where a block is not strictly convex, has no cells, an arc cannot span its side, a cell is
+///        not strictly convex, or two blocks of straight sides overlap (touching is allowed).
 BlockMesh mappedBlocks(std::vector<MappedBlock> const &blocks);
 
 } // namespace Harmos

@@ -258,19 +258,7 @@ Painting paint(Mesh const &mesh, std::vector<Body> const &bodies)
 View<double *[2]> paintedVelocity(Mesh const &mesh, std::vector<Body> const &bodies, Painting const &painting,
                                   NodeMaterialPairs const &dof_nodes)
 {
-  // velocity, rotation_centre, angular_velocity
-  View<double *[5]> motion("Harmos::paint::motion", bodies.size());
-  auto const host = Kokkos::create_mirror_view(motion);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-  {
-    for (int d = 0; d < 2; ++d)
-    {
-      host(i, d) = bodies[i].velocity[d];
-      host(i, 2 + d) = bodies[i].rotation_centre[d];
-    }
-    host(i, 4) = bodies[i].angular_velocity;
-  }
-  Kokkos::deep_copy(motion, host);
+  auto const motion = deviceCopy("Harmos::paint::motion", std::vector<BodyMotion>(bodies.begin(), bodies.end()));
 
   View<double *[2]> velocity("Harmos::dof_nodes::velocity", dof_nodes.num_dof_nodes);
   Kokkos::parallel_for(
@@ -289,9 +277,7 @@ View<double *[2]> paintedVelocity(Mesh const &mesh, std::vector<Body> const &bod
               continue;
             for (int k = painting.pair_body.offset(pair); k < painting.pair_body.offset(pair + 1); ++k)
             {
-              int const body = painting.pair_body.item(k);
-              Vector2 const arm = x - Vector2{motion(body, 2), motion(body, 3)};
-              Vector2 const v = Vector2{motion(body, 0), motion(body, 1)} + motion(body, 4) * perpendicular(arm);
+              Vector2 const v = motion(painting.pair_body.item(k)).velocityAt(x);
               mass += painting.body_mass(k);
               mean += painting.body_mass(k) / mass * (v - mean);
             }

@@ -11,25 +11,41 @@
 namespace Harmos
 {
 
+/// The velocities of a body when it is painted.
+struct BodyMotion
+{
+  Vector2 velocity = {0.0, 0.0};        // [m/s]; v(x): velocityAt
+  double angular_velocity = 0.0;        // [rad/s]
+  double radial_velocity = 0.0;         // away from radial_centre, at radial_radius from it [m/s]
+  double radial_radius = 1.0;           // [m]
+  double radial_exponent = 0.0;         // of the distance
+  Vector2 rotation_centre = {0.0, 0.0}; // [m]
+  Vector2 radial_centre = {0.0, 0.0};   // [m]
+
+  /// velocity + angular_velocity z x (x - rotation_centre) + radial_velocity (|d| / radial_radius)^radial_exponent
+  /// d / |d|, d = x - radial_centre; no radial part at d = 0.
+  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(Vector2 const &x) const
+  {
+    Vector2 const v = velocity + angular_velocity * perpendicular(x - rotation_centre);
+    Vector2 const d = x - radial_centre;
+    double const r = norm(d);
+    if (radial_velocity == 0.0 || r == 0.0)
+      return v;
+    return v + (radial_velocity * Math::pow(r / radial_radius, radial_exponent) / r) * d;
+  }
+};
+
 /// A region filled with one material in a uniform initial state. Bodies may share a material number: they are then one
 /// velocity field.
-struct Body
+struct Body : BodyMotion
 {
   Shape shape;
   int material = 0;
-  Vector2 velocity = {0.0, 0.0};        // [m/s]; v(x) = velocity + angular_velocity z x (x - rotation_centre)
-  double angular_velocity = 0.0;        // [rad/s]
-  Vector2 rotation_centre = {0.0, 0.0}; // [m]
-  double density = 0.0;                 // > 0 [kg/m^3]
-  double specific_volume = 0.0;         // thermodynamic, > 0 [m^3/kg]: 1 / density where unloaded
-  double internal_energy = 0.0;         // per mass [J/kg]
-  bool cut_from_earlier = false;        // the bodies before this one lose the region that it fills
-  std::string name;                     // for messages
-
-  Vector2 velocityAt(Vector2 const &x) const
-  {
-    return velocity + angular_velocity * perpendicular(x - rotation_centre);
-  }
+  double density = 0.0;          // > 0 [kg/m^3]
+  double specific_volume = 0.0;  // thermodynamic, > 0 [m^3/kg]: 1 / density where unloaded
+  double internal_energy = 0.0;  // per mass [J/kg]
+  bool cut_from_earlier = false; // the bodies before this one lose the region that it fills
+  std::string name;              // for messages
 };
 
 /// The initial pairs and their state.

@@ -16,8 +16,14 @@ enum PairPacket : int
   PacketRecord = 1,
   PacketCentroid = PacketRecord + num_pair_fields,
   PacketVelocity = PacketCentroid + 2,
-  packet_width = PacketVelocity + 8
+  packet_width = PacketVelocity + 8, // without damage
+  PacketDamage = packet_width
 };
+
+int packetWidth(PairState const &state)
+{
+  return packet_width + (state.tracks_damage ? 1 : 0);
+}
 
 template <class V>
 V uninitialised(char const *label, int size)
@@ -74,6 +80,8 @@ void packPairs(View<int *> const &cells, CellMaterialPairs const &pairs, PairSta
           for (int k = 0; k < 4; ++k)
             for (int d = 0; d < 2; ++d)
               r(row, PacketVelocity + 2 * k + d) = s.velocity(p.dof_node(pair, k), d);
+          if (s.tracks_damage)
+            r(row, PacketDamage) = s.damage(pair);
         }
       });
 }
@@ -118,6 +126,8 @@ void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMateri
           for (int k = 0; k < 4; ++k)
             for (int d = 0; d < 2; ++d)
               s.velocity(p.dof_node(pair, k), d) = r(row, PacketVelocity + 2 * k + d);
+          if (s.tracks_damage)
+            s.damage(pair) = r(row, PacketDamage);
         }
         p.cell_kind(cell) = cellKind(p, s.record, cell);
       });
@@ -183,6 +193,8 @@ void gatherPairs(CellMaterialPairs const &old_pairs, PairState const &old_state,
           s.record(pair, f) = from >= 0 ? t.record(from, f) : value(row, PacketRecord + f);
         for (int d = 0; d < 2; ++d)
           s.centroid(pair, d) = from >= 0 ? t.centroid(from, d) : value(row, PacketCentroid + d);
+        if (s.tracks_damage)
+          s.damage(pair) = from >= 0 ? t.damage(from) : value(row, PacketDamage);
       });
 }
 
@@ -230,6 +242,9 @@ void rebuildPairs(Mesh const &mesh, Kinematics kinematics, View<int *> const &ce
   PairState s;
   s.record = uninitialised<View<double *[num_pair_fields]>>("Harmos::mesh::record", p.num_pairs);
   s.centroid = uninitialised<View<double *[2]>>("Harmos::mesh::centroid", p.num_pairs);
+  s.tracks_damage = state.tracks_damage;
+  if (s.tracks_damage)
+    s.damage = uninitialised<View<double *>>("Harmos::mesh::damage", p.num_pairs);
   View<int *> const source = listSources(mesh, pairs.offset, cells, rows, p);
   gatherPairs(pairs, state, rows, source, p, s);
   dof_nodes = buildDofNodes(mesh, kinematics, s.record, p);
@@ -251,8 +266,8 @@ void exchangeState(Mesh const &mesh, Kinematics kinematics, Exchange const &exch
   auto const received_count =
       uninitialised<View<int *>>("Harmos::mesh::received_count", static_cast<int>(halo.received.extent(0)));
   exchange.exchangeCounts(sent_count, received_count, depth);
-  PackedRows const sent = makeRows(sent_count, packet_width);
-  PackedRows const received = makeRows(received_count, packet_width);
+  PackedRows const sent = makeRows(sent_count, packetWidth(state));
+  PackedRows const received = makeRows(received_count, packetWidth(state));
   packPairs(halo.sent, pairs, state, sent);
   exchange.exchangePacked(sent, received, depth);
   if (depth == mesh.halo && sameMaterials(halo.received, received, pairs))

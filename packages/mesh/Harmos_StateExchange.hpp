@@ -10,10 +10,11 @@ namespace Harmos
 
 /// Replace the pairs of all halo cells of depth <= `depth` by their owner's, bit for bit; once a cycle.
 ///
-/// A pair travels as one row of 19 doubles: material, record (8), centroid (2), velocities of its corners (8). Pairs
-/// of deeper cells vanish. Pairs that share a dof node carry the same bits. Where the halo holds the materials that
-/// come, as it mostly does, values are overwritten in place; else pairs, dof nodes and state come back in new views,
-/// numbered anew. Only cells within `depth` of another rank are packed. On one rank it returns at once.
+/// A pair travels as one row of 19 doubles: material, record (8), centroid (2), velocities of its corners (8), and
+/// its damage where that is tracked. Pairs of deeper cells vanish. Pairs that share a dof node carry the same bits.
+/// Where the halo holds the materials that come, as it mostly does, values are overwritten in place; else pairs, dof
+/// nodes and state come back in new views, numbered anew. Only cells within `depth` of another rank are packed. On one
+/// rank it returns at once.
 void exchangeState(Mesh const &mesh, Kinematics kinematics, Exchange const &exchange, int depth,
                    CellMaterialPairs &pairs, NodeMaterialPairs &dof_nodes, PairState &state);
 

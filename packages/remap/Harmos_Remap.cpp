@@ -89,8 +89,10 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   StageState stage;
   stage.record = recycle(kept.records, "record", in.pairs.num_pairs);
   stage.velocity = in.half;
-  View<double *> before;
-  if (in.options.return_kinetic_defect)
+  View<double *> before = in.state.damage;
+  if (in.carriesDamage())
+    stage.kinetic = scratch<double *>("damage", in.pairs.num_pairs);
+  else if (in.options.return_kinetic_defect)
   {
     before = scratch<double *>("kineticBefore", in.pairs.num_pairs);
     stage.kinetic = scratch<double *>("kinetic", in.pairs.num_pairs);
@@ -101,7 +103,7 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   if (classes.num_swept == 0)
   {
     Kokkos::deep_copy(stage.record, in.state.record);
-    if (in.options.return_kinetic_defect)
+    if (stage.kinetic.extent(0) > 0)
       Kokkos::deep_copy(stage.kinetic, before);
     return stage;
   }
@@ -214,6 +216,8 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     throw std::runtime_error("remap: order 3 is planar; axisymmetric meshes take orders 1 and 2");
   if (kinematics == Kinematics::Lagrangian)
     throw std::runtime_error("remap: lagrangian kinematics has no remap");
+  if (options.return_kinetic_defect && state.tracks_damage)
+    throw std::runtime_error("remap: where damage is tracked the kinetic defect cannot be returned");
   ScopedRegion const region("Harmos::remap");
   if (!work.kept)
     work.kept = std::make_shared<Kept>();
@@ -253,6 +257,9 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
   }
   Rebuilt rebuilt = rebuild(in, kinematics, classes, stage, acceptors);
   rebuilt.result.state.velocity = stage.velocity;
+  rebuilt.result.state.tracks_damage = state.tracks_damage;
+  if (state.tracks_damage)
+    rebuilt.result.state.damage = rebuilt.kinetic;
   bool const in_place = classes.num_swept > 0 && rebuilt.result.pairs.offset.data() == pairs.offset.data();
   if (!in_place)
     rebuilt.result.state.velocity = recycle(kept.velocities, "velocity", rebuilt.result.dof_nodes.num_dof_nodes);

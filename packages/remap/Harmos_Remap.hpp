@@ -36,7 +36,8 @@ struct RemapOptions
   double merge_below = 1e-6;      // fragments below this volume fraction merge with same-material neighbours; 0: never
   double close_void_below = 1e-8; // spurious void below this part of a cell, with no void around, is closed
   bool swept_faces = true;        // pure regions by swept faces; false: intersection everywhere
-  bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair
+  bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
+                                      // where damage is tracked, which is carried in its place
 };
 
 /// Sums over owned cells of one remap, for the history.

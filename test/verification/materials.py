@@ -106,7 +106,8 @@ def test_the_stress_behind_the_shock_is_on_the_yield_surface():
             continue
         (stress, _, _, _), speed = shocked(law, u)
         end = 1.1 * FAR / (speed - u)
-        r, near, _ = plate(name, u, end)
+        # the deck returns the kinetic energy that the remap loses, which does not go with damage
+        r, near, _ = plate(name, u, end, **({"materials__metal__damage": "none"} if "damage" in law else {}))
         # while the front passes the probe the material flows: the row where the stress rises fastest in plastic strain
         eps = near["plastic_strain"]
         rates = [(b - a) / (t1 - t0) if t1 > t0 else 0.0

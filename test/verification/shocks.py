@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shocks with exact solutions: Sod's tube, Noh's problem, Sedov's cylindrical blast, plate impact with strength.
+"""Shocks with exact solutions: Sod's tube, Noh's problem (planar, cylindrical), Sedov's cylindrical blast, plate impact
+with strength; and Verney's collapsing shell.
 
 Errors are volume-weighted L1 means of the cells' density against the exact density at the cell's centre; orders are
 from two resolutions.
@@ -72,6 +73,35 @@ def test_sod_converges_at_first_order_with_two_fields_and_with_one():
         check(f"{name}: L1 of the density at 200 cells", errors[1], 6e-3)
         check(f"{name}: one less the order", 1.0 - orders[-1], 0.35)
         clean(*(r for r, _ in runs))
+
+
+def noh(cells, **more):
+    r = harmos("shocks/noh.yaml", {"mesh/x/cells": cells, "mesh/y/cells": cells, "output/fields/every_time": 0.0, **more})
+    x, area, density, _ = last_fields(r)
+    radius, t = numpy.hypot(x[:, 0], x[:, 1]), 0.6
+    near = radius < 0.35
+    error = l1(density[near], numpy.where(radius < t / 3.0, 16.0, 1.0 + t / radius)[near], area[near])
+    plateau = (radius > 0.06) & (radius < 0.15)
+    mean = (density * area)[plateau].sum() / area[plateau].sum()
+    # the circle of the area in which the density is beyond the middle of the jump from 4 to 16
+    shock = sqrt(4.0 / pi * area[density > 10.0].sum())
+    ring = (abs(radius - 0.1) < 0.02)
+    spread = density[ring].max() - density[ring].min()
+    print(f"  {cells} cells: L1 {error:.3f}, plateau {mean:.3f}, shock at {shock:.4f}, density over the ring r = 0.1 "
+          f"within {spread:.2f}, centre {density[radius.argmin()]:.2f}")
+    check("energy ledger", r.summary["energy_error"], 1e-10)
+    check("mass", r.summary["mass_error"], 1e-12)
+    clean(r)
+    return error, mean, shock
+
+
+def test_noh_cylindrical_shock_is_where_it_should_be_and_density_converges():
+    # Wall heating (Noh, J. Comput. Phys. 72 (1987) 78): what the viscosity heats at the centre while the shock forms, and in
+    # the converging flow ahead of it, stays; both go with the width of the shock, so with the first power of h.
+    coarse, fine = noh(50), noh(100)
+    check("one less the order of the density", 1.0 - log2(coarse[0] / fine[0]), 0.2)
+    check("one less the order of the plateau of 16", 1.0 - log2((16.0 - coarse[1]) / (16.0 - fine[1])), 0.2)
+    check("plateau of 16 at 100 cells", abs(fine[1] / 16.0 - 1.0), 0.11)
 
 
 def test_noh_planar_shock_doubles_twice():
@@ -171,6 +201,37 @@ def test_plate_impact_with_strength_gives_the_two_wave_state():
     check("speed of the precursor", abs(precursor / exact_speed - 1.0), 0.01)
     check("energy ledger", r.summary["energy_error"], 1e-10)
     clean(r)
+
+
+def surface_radii(r):
+    """Mean radius of the outer free surface and its spread, from the interface segments of the last output."""
+    with h5py.File(sorted(r.directory.glob("fields_*.h5"))[-1]) as file:
+        ends = file["/interface/vertex"][:].reshape(-1, 2, 2)
+    middle, length = ends.mean(axis=1), numpy.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    radius = numpy.hypot(middle[:, 0], middle[:, 1])
+    result = []
+    cut = 0.5 * (radius.min() + radius.max())
+    for side in (radius < cut, radius > cut):
+        mean = float((radius * length)[side].sum() / length[side].sum())
+        result.append((mean, float(numpy.ptp(radius[side]))))
+    return result
+
+
+def test_verney_shell_stops_at_its_radius():
+    exact = 0.072111
+    errors = []
+    for cells in (52, 104):
+        r = harmos("verney/deck.yaml", {"mesh/x/cells": cells, "mesh/y/cells": cells, **QUIET})
+        (inner, inner_spread), (outer, outer_spread) = surface_radii(r)
+        still = r.history["kinetic_energy"][-1] / r.history["kinetic_energy"][0]
+        errors.append(outer / exact - 1.0)
+        print(f"  {cells * 0.02 / 0.104:.0f} cells over the shell: outer radius {100 * outer:.4f} cm ({100 * errors[-1]:+.3f}%, "
+              f"spread {100 * outer_spread:.4f}), inner {100 * inner:.4f} (spread {100 * inner_spread:.4f}), "
+              f"kinetic energy left {still:.1e}, plastic strain up to {r.last('shell.plastic_strain_max'):.2f}")
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        clean(r)
+    check("outer radius at 10 cells over the shell", abs(errors[0]), 5e-3)
+    check("outer radius at 20 cells", abs(errors[1]), 5e-3)
 
 
 if __name__ == "__main__":

@@ -154,6 +154,23 @@ TEST(Bonds, theNearestBond_decides)
   EXPECT_EQ(breakBonds(report.bond_load, scene.options, scene.dt, scene.bonds), 4);
 }
 
+// What is bonded holds across the round-off of a remap, not across void.
+TEST(Bonds, holdAcrossNoGapWiderThanATenthOfACell)
+{
+  for (double const gap : {0.0, 0.05, 0.2, 0.6})
+  {
+    TinyScene scene(rectilinearMesh(uniform(2, 2), uniform(1, 1)),
+                    {boxBody(0, 0, 0, 0.7, 1), boxBody(1, 0.7 + gap, 0, 2, 1)}, 2, open_box);
+    scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, {}});
+    scene.setVelocity([](int material, Vector2 const &) { return Vector2{material == 0 ? -V : V, 0.0}; });
+    ConstraintReport const report = scene.constrain();
+    if (gap < 0.1)
+      EXPECT_LT(report.pair_force[3 * 1].normal_impulse, 0.0) << gap;
+    else
+      EXPECT_EQ(report.pair_force[3 * 1].normal_impulse, 0.0) << gap;
+  }
+}
+
 TEST(Bonds, breakWhereTheSumOfSquaresReachesOne)
 {
   BondStrength const strength{3.0, 4.0};

@@ -43,6 +43,9 @@ ArrangedFields::ArrangedFields(MPI_Comm comm, FieldSnapshot const &s)
   block.pairs.deviator = pair_order.arrange(s.pairs.deviator, 3);
   block.pairs.von_mises = pair_order.arrange(s.pairs.von_mises);
   block.pairs.velocity = pair_order.arrange(s.pairs.velocity, 3);
+  block.pairs.has_damage = s.pairs.has_damage;
+  if (s.pairs.has_damage)
+    block.pairs.damage = pair_order.arrange(s.pairs.damage);
 
   block.interface.cell = segment_order.key();
   block.interface.material_a = segment_order.arrange(s.interface.material_a);
@@ -105,6 +108,8 @@ void writePairs(Hdf5File &file, ArrangedFields const &fields)
   table("deviator", pairs.deviator, 3);
   table("von_mises", pairs.von_mises);
   table("velocity", pairs.velocity, 3);
+  if (pairs.has_damage)
+    table("damage", pairs.damage);
 
   // Ends of the polygons: polygon i has the vertices end[i - 1] .. end[i] - 1.
   std::vector<long long> end(pairs.offset.begin() + 1, pairs.offset.end());

@@ -80,6 +80,8 @@ void visitFields(FieldSnapshot::Pairs const &pairs, Visitor const &visit)
   visit("deviator", pairs.deviator, 3);
   visit("von_mises", pairs.von_mises, 1);
   visit("velocity", pairs.velocity, 3);
+  if (pairs.has_damage)
+    visit("damage", pairs.damage, 1);
 }
 
 std::string openTag(char const *type)

@@ -73,7 +73,7 @@ TEST(DeckErrors, MissingKey_saysWhatIsExpected)
   deck = exampleDeck();
   deck.replace(deck.find("shape: annulus, "), 16, "");
   EXPECT_EQ(messageOfText(deck),
-            "deck.yaml: bodies/ring/shape: missing; expected: rectangle | disc | annulus | polygon | half-plane");
+            "deck.yaml: bodies/ring/shape: missing; expected: rectangle | disc | annulus | polygon | half-plane | mesh part");
   EXPECT_EQ(messageOfText("harmos:\n  title: x\n"), "deck.yaml: mesh/x/from: missing; expected: number [m]");
 }
 

@@ -129,6 +129,36 @@ TEST(DeckMaterials, ValuesThatContradict_areRefused)
                 "deck.yaml: bodies/disc/pressure: ");
 }
 
+TEST(DeckMaterials, Failure_arrivesAsWritten)
+{
+  std::string const damage = ", damage: johnson-cook, D1: 0.54, D2: 4.89, D3: -3.03, D4: 0.014, D5: 1.12";
+  Material const m = law(copper + johnson_cook + damage + ", spall_pressure: 1.5e9, spall_stress: 2.0e9");
+  EXPECT_TRUE(m.failure.damages);
+  EXPECT_EQ(m.failure.d[0], 0.54);
+  EXPECT_EQ(m.failure.d[2], -3.03);
+  EXPECT_EQ(m.failure.d[4], 1.12);
+  EXPECT_EQ(m.failure.spall_pressure, 1.5e9);
+  EXPECT_EQ(m.failure.spall_stress, 2.0e9);
+  EXPECT_FALSE(law(copper + johnson_cook).failure.damages);
+  EXPECT_EQ(law(copper + johnson_cook).failure.spall_pressure, no_limit);
+}
+
+TEST(DeckMaterials, FailureThatCannotBe_isRefused)
+{
+  EXPECT_STARTS(
+      message(copper + "strength: plastic, shear_modulus: 46.0e9, yield_stress: 90.0e6, damage: johnson-cook"),
+      "deck.yaml: materials/metal/damage: does not belong here, only where ");
+  EXPECT_STARTS(message(copper + johnson_cook + ", damage: johnson-cook, D1: 0.54"),
+                "deck.yaml: materials/metal/D2: missing; expected: number");
+  EXPECT_EQ(
+      message(copper + "tension_limit: 1.0e9, spall_pressure: 2.0e9"),
+      "deck.yaml: materials/metal/spall_pressure: 2000000000.0 is never reached: tension_limit = 1000000000.0 cuts "
+      "the tension off; expected: at most that");
+  EXPECT_STARTS(
+      message(copper + "spall_pressure: 2.0e9", {"numerics/remap/return_kinetic_defect=true"}),
+      "deck.yaml: numerics/remap/return_kinetic_defect: true does not go with materials that can fail (metal)");
+}
+
 TEST(DeckMaterials, From_readsALawFromAFileAndTheDecksKeysWin)
 {
   MaterialFile const file(asFile(copper + johnson_cook));

@@ -26,6 +26,7 @@ HistoryRow rowOf(long long cycle)
   row.residual = 1e-9 / 7.0;
   row.material.resize(2);
   row.material[1].plastic_strain_max = 0.1 * cycle;
+  row.material[1].failed_mass = 0.3 * cycle;
   return row;
 }
 
@@ -45,7 +46,8 @@ TEST(History, header_namesTheColumnsThatScriptsRelyOn)
             "contact_loss,remap_loss,energy_error,overlap_volume,void_volume,external_impulse_x,external_impulse_y,"
             "outflow_mass,outflow_momentum_x,outflow_momentum_y,outflow_energy,pairs,pairs_mixed,multipliers,"
             "iterations,residual,cu.mass,cu.volume,cu.momentum_x,cu.momentum_y,cu.kinetic_energy,cu.internal_energy,"
-            "cu.x_min,cu.x_max,cu.y_min,cu.y_max,cu.plastic_strain_max,returned_heat");
+            "cu.x_min,cu.x_max,cu.y_min,cu.y_max,cu.plastic_strain_max,"
+            "cu.failed_mass,returned_heat");
 }
 
 TEST(History, writtenDoubles_readBackWithTheSameBits)

@@ -173,6 +173,43 @@ TEST(MappedBlocks, twoBlocksThatTouch_shareNoNodesAndFillTheirCorners)
   EXPECT_EQ(oppositeFace(blocks.mesh, around, 12, 2), -1);
 }
 
+TEST(MappedBlocks, ringSectorWithArcs_hasItsNodesOnCirclesAndRays)
+{
+  // a quarter of a ring, 1 < r < 2: corners (1,0), (2,0), (0,2), (0,1)
+  MappedBlock ring{{{{1.0, 0.0}, {2.0, 0.0}, {0.0, 2.0}, {0.0, 1.0}}}, {4, 30}};
+  ring.arc_radius = {0.0, 2.0, 0.0, -1.0};
+  BlockMesh const blocks = mappedBlocks({ring});
+  for (int j = 0; j <= 30; ++j)
+    for (int i = 0; i <= 4; ++i)
+    {
+      auto const &x = blocks.mesh.node[5 * j + i];
+      double const angle = 0.5 * 3.14159265358979323846 * j / 30;
+      EXPECT_NEAR(x[0], (1.0 + 0.25 * i) * std::cos(angle), 1e-14);
+      EXPECT_NEAR(x[1], (1.0 + 0.25 * i) * std::sin(angle), 1e-14);
+    }
+  // chords cut the arcs short: sin(2 a) / (2 a) of the area, 2 a = pi / 60
+  double const step = 3.14159265358979323846 / 60.0;
+  EXPECT_NEAR(totalArea(blocks.mesh), 0.75 * 3.14159265358979323846 * std::sin(step) / step, 1e-13);
+}
+
+TEST(MappedBlocks, gradedBlock_hasCellsInGeometricProgression)
+{
+  MappedBlock block{{{{0.0, 0.0}, {3.0, 0.0}, {3.0, 1.0}, {0.0, 1.0}}}, {2, 1}};
+  block.grading = {2.0, 1.0};
+  EXPECT_EQ(mappedBlocks({block}).mesh.node[1], (std::array<double, 2>{1.0, 0.0}));
+}
+
+TEST(MappedBlocks, arcTooTightForItsSide_isRefused)
+{
+  MappedBlock block{{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}}, {2, 2}};
+  block.arc_radius[2] = 0.49;
+  EXPECT_THROW(mappedBlocks({block}), std::runtime_error);
+  // a half circle inwards reaches through the lower side
+  block.corner[2][1] = block.corner[3][1] = 0.4;
+  block.arc_radius[2] = -0.5;
+  EXPECT_THROW(mappedBlocks({block}), std::runtime_error);
+}
+
 TEST(MappedBlocks, overlappingConcaveOrEmptyBlocks_areRefused)
 {
   MappedBlock const unit{{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}}, {2, 2}};

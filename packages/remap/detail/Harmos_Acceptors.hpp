@@ -22,7 +22,7 @@ struct Acceptors
   View<int *> merge_to; // candidate that takes this fragment, or -1
   View<double *[num_overlay_sums]> sum;
   View<double *[num_pair_fields]> record; // new records
-  View<double *> kinetic;                 // kinetic energy per mass that the new pair should have
+  View<double *> kinetic;                 // KineticField: kinetic energy per mass that the new pair should have
   View<double *[2]> centroid;
   View<double *[8]> corner_velocity;
 

@@ -143,7 +143,8 @@ struct AccumulateFunctor
       double const mass = m.volume() / boundary.specific_volume;
       double part[num_overlay_sums] = {};
       part[DensityField] = mass;
-      part[KineticField] = 0.5 * mass * dot(boundary.velocity, boundary.velocity);
+      double const kinetic = 0.5 * mass * dot(boundary.velocity, boundary.velocity);
+      part[KineticField] = in.carriesDamage() ? 0.0 : kinetic; // what flows in is sound
       part[SpecificVolume] = m.volume();
       part[InternalEnergy] = mass * boundary.internal_energy;
       for (int k = 0; k < 4; ++k)
@@ -156,7 +157,7 @@ struct AccumulateFunctor
       if (in.mesh.cell_depth(acceptor) != 0)
         continue;
       bookings(row.index, BookInMass) += mass;
-      bookings(row.index, BookInKinetic) += part[KineticField];
+      bookings(row.index, BookInKinetic) += kinetic;
       bookings(row.index, BookInEnergy) += part[InternalEnergy];
       bookings(row.index, BookInMomentumX) += mass * boundary.velocity[0];
       bookings(row.index, BookInMomentumY) += mass * boundary.velocity[1];

@@ -14,7 +14,7 @@ namespace RemapDetail
 struct StageState
 {
   View<double *[num_pair_fields]> record; // num_pairs
-  View<double *> kinetic;                 // num_pairs: kinetic energy per mass; extent 0: not carried through stage 1
+  View<double *> kinetic;                 // num_pairs: KineticField; extent 0: not carried through stage 1
   View<double *[2]> velocity;             // num_dof_nodes
 
   KOKKOS_INLINE_FUNCTION double kineticEnergy(CellMaterialPairs const &pairs, int pair) const

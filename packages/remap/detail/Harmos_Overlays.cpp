@@ -258,7 +258,8 @@ struct IntersectFunctor : Finder
   KOKKOS_INLINE_FUNCTION void bookOutflow(int index, StageFields const &rest) const
   {
     bookings(index, BookOutMass) += rest.record[DensityField];
-    bookings(index, BookOutKinetic) += rest.record[KineticField];
+    bookings(index, BookOutKinetic) +=
+        in.carriesDamage() ? momentumKineticEnergy(rest.record[DensityField], rest.corner) : rest.record[KineticField];
     bookings(index, BookOutEnergy) += rest.record[InternalEnergy];
     for (int k = 0; k < 4; ++k)
     {

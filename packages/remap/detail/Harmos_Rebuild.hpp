@@ -14,7 +14,7 @@ struct Rebuilt
 {
   RemapResult result;
   View<int *> candidate;  // num_pairs: candidate of the pairs of interface cells
-  View<double *> kinetic; // num_pairs: kinetic energy per mass that the remap carried; extent 0: not asked for
+  View<double *> kinetic; // num_pairs: KineticField that the remap carried; extent 0: not asked for
 };
 
 /// Pairs, records and centroids of time n+1, and the dof nodes. Rows and dof nodes are kept where no cell changes its

@@ -29,6 +29,8 @@ struct Input
   bool retargeted = false; // it is
 
   KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
+  /// Stage field KineticField holds damage.
+  KOKKOS_INLINE_FUNCTION bool carriesDamage() const { return state.tracks_damage; }
   KOKKOS_INLINE_FUNCTION Vector2 node(int n) const { return {mesh.node_position(n, 0), mesh.node_position(n, 1)}; }
   KOKKOS_INLINE_FUNCTION Vector2 startNode(int n) const { return {start(n, 0), start(n, 1)}; }
   KOKKOS_INLINE_FUNCTION Quadrilateral startQuadrilateral(int cell) const
@@ -117,6 +119,16 @@ KOKKOS_INLINE_FUNCTION void returnToYield(Material const &law, double *record)
     yy *= scale;
     xy *= scale;
   }
+}
+
+/// Kinetic energy of masses m / 4 with the momenta P_k / 4 at the corners: sum |P_k|^2 / (8 m). [J/m]
+template <class Corners>
+KOKKOS_INLINE_FUNCTION double momentumKineticEnergy(double mass, Corners const &momentum)
+{
+  double sum = 0.0;
+  for (int i = 0; i < 8; ++i)
+    sum += momentum[i] * momentum[i];
+  return mass > 0.0 ? 0.125 * sum / mass : 0.0;
 }
 
 /// Mean of |v|^2 / 2 over the four corners of a pair: its kinetic energy per mass.

@@ -16,7 +16,7 @@ namespace RemapDetail
 enum StageField : int
 {
   DensityField = 0, // fluxes: mass
-  KineticField = 1  // kinetic energy per mass, where it is carried
+  KineticField = 1  // where it is carried: kinetic energy per mass; damage where that is tracked (also by mass)
 };
 
 /// Columns of SweptWindow::cell.

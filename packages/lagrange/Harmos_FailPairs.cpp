@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_Lagrange.hpp>
+
+#include <Harmos_CellVoid.hpp>
+#include <Harmos_Failure.hpp>
+
+namespace Harmos
+{
+namespace
+{
+
+/// A pure cell opens when its void is this part of it: round-off in a failed cell's pressure makes no void.
+constexpr double least_opening = 1e-6;
+
+/// Volume fraction and specific volume.
+struct Filling
+{
+  double fraction, specific_volume;
+};
+
+/// What void does to a failed pair that the update has strained from sv_n to `strained`.
+///
+/// Compressed, it keeps its volume f A sv_n / sv while the void of its cell, `room`, lasts: f' = min(f sv_n / sv, f +
+/// room), sv' = sv f' / f. Where that leaves tension the pair shrinks to the volume without pressure, the rest is void.
+KOKKOS_INLINE_FUNCTION Filling failedFilling(Material const &m, Filling const &strained, double energy, double sv_n,
+                                             double room, double others, bool closes)
+{
+  Filling next = strained;
+  double const sv = strained.specific_volume, fraction = strained.fraction;
+  if (closes && sv < sv_n && room > 0.0)
+  {
+    double const whole = fraction * (sv_n / sv);
+    next.fraction = whole < fraction + room ? whole : 1.0 - others;
+    next.specific_volume = sv * (next.fraction / fraction);
+  }
+  if (equationOfState(m, next.specific_volume, energy).pressure >= 0.0)
+    return next;
+  double const unstressed = unstressedVolume(m, next.specific_volume, energy);
+  Filling const open = {next.fraction * (unstressed / next.specific_volume), unstressed};
+  bool const sealed = room <= 0.0 && fraction - open.fraction < least_opening;
+  return sealed ? next : open;
+}
+
+struct FailFunctor
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  PairState state;
+  View<Material *> materials;
+  View<double *[2]> before;
+  double dt;
+  bool closes;
+
+  KOKKOS_INLINE_FUNCTION double othersOf(int cell, int pair) const
+  {
+    double sum = 0.0;
+    for (int other = pairs.offset(cell); other < pairs.offset(cell + 1); ++other)
+      sum += other == pair ? 0.0 : state.record(other, VolumeFraction);
+    return sum;
+  }
+
+  /// \return Whether the pair has failed in this step.
+  KOKKOS_INLINE_FUNCTION bool damagePair(int pair, Material const &m, bool open) const
+  {
+    auto const &record = state.record;
+    double const damage = state.damage(pair);
+    if (isFailed(m, damage, open))
+      return false;
+    FailureState const now = {record(pair, SpecificVolume),
+                              record(pair, InternalEnergy),
+                              {record(pair, DeviatorXX), record(pair, DeviatorYY), record(pair, DeviatorXY)},
+                              record(pair, PlasticStrain) - before(pair, BeforePlasticStrain)};
+    state.damage(pair) = damageAfter(m, now, damage, dt);
+    return isFailed(m, state.damage(pair), open);
+  }
+
+  KOKKOS_INLINE_FUNCTION void relax(int cell, int pair, Material const &m, bool is_new) const
+  {
+    auto const &record = state.record;
+    record(pair, DeviatorXX) = record(pair, DeviatorYY) = record(pair, DeviatorXY) = 0.0;
+    if (!is_new)
+      record(pair, PlasticStrain) = before(pair, BeforePlasticStrain);
+    double const others = othersOf(cell, pair);
+    Filling const strained = {record(pair, VolumeFraction), record(pair, SpecificVolume)};
+    double const room = Math::max(1.0 - others - strained.fraction, 0.0);
+    Filling const next = failedFilling(m, strained, record(pair, InternalEnergy), before(pair, BeforeSpecificVolume),
+                                       room, others, closes);
+    record(pair, VolumeFraction) = next.fraction;
+    record(pair, SpecificVolume) = next.specific_volume;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int cell, long long &failed, long long &moved) const
+  {
+    bool const open = isOpen(pairs, state.record, cell);
+    for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
+    {
+      Material const &m = materials(pairs.material(pair));
+      if (!canFail(m))
+        continue;
+      bool const is_new = damagePair(pair, m, open);
+      failed += is_new && mesh.cell_depth(cell) == 0 ? 1 : 0;
+      if (!isFailed(m, state.damage(pair), open))
+        continue;
+      double const fraction = state.record(pair, VolumeFraction);
+      relax(cell, pair, m, is_new);
+      moved += state.record(pair, VolumeFraction) != fraction ? 1 : 0;
+    }
+  }
+};
+
+/// Kinds after fractions have changed; in a view of their own where some do, since others keep the old one.
+void updateCellKinds(Mesh const &mesh, PairState const &state, CellMaterialPairs &pairs)
+{
+  View<int *> const kind("Harmos::lagrange::cell_kind", mesh.num_cells);
+  CellMaterialPairs const p = pairs;
+  auto const record = state.record;
+  int changed = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::lagrange::updateCellKinds", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &sum) {
+        kind(cell) = cellKind(p, record, cell);
+        sum += kind(cell) != p.cell_kind(cell) ? 1 : 0;
+      },
+      changed);
+  if (changed > 0)
+    pairs.cell_kind = kind;
+}
+
+/// Before a cell becomes mixed its centroid is its own.
+void centrePureCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state)
+{
+  auto const centroid = state.centroid;
+  Kokkos::parallel_for(
+      "Harmos::lagrange::centrePureCells", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
+        if (pairs.cell_kind(cell) != PureCell)
+          return;
+        int const pair = pairs.offset(cell);
+        for (int d = 0; d < 2; ++d)
+        {
+          double sum = 0.0;
+          for (int k = 0; k < 4; ++k)
+            sum += mesh.node_position(mesh.cell_node(cell, k), d);
+          centroid(pair, d) = 0.25 * sum;
+        }
+      });
+}
+
+} // namespace
+
+void keepForFailure(CellMaterialPairs const &pairs, PairState const &state, LagrangeWork &work)
+{
+  if (!state.tracks_damage)
+    return;
+  if (work.before.extent(0) < static_cast<std::size_t>(pairs.num_pairs))
+    work.before = View<double *[2]>("Harmos::lagrange::before", pairs.num_pairs + pairs.num_pairs / 4);
+  auto const before = work.before;
+  auto const record = state.record;
+  Kokkos::parallel_for(
+      "Harmos::lagrange::keepForFailure", RangePolicy(0, pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
+        before(pair, BeforeSpecificVolume) = record(pair, SpecificVolume);
+        before(pair, BeforePlasticStrain) = record(pair, PlasticStrain);
+      });
+}
+
+FailureReport failPairs(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs &pairs, PairState const &state,
+                        View<Material *> const &materials, bool void_closes, double dt, LagrangeWork const &work)
+{
+  FailureReport report;
+  if (!state.tracks_damage)
+    return report;
+  long long moved = 0;
+  Kokkos::parallel_reduce("Harmos::lagrange::failPairs", RangePolicy(0, mesh.num_cells),
+                          FailFunctor{mesh, pairs, state, materials, work.before, dt, void_closes}, report.failed,
+                          moved);
+  // The void of a body-fitted cell stays inside of it.
+  report.fractions_changed = moved > 0 && kinematics != Kinematics::Lagrangian;
+  if (report.fractions_changed)
+  {
+    centrePureCells(mesh, pairs, state);
+    updateCellKinds(mesh, state, pairs);
+  }
+  return report;
+}
+
+} // namespace Harmos

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_LagrangeScene.hpp"
+
+#include <Harmos_Failure.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+using namespace Harmos::Test;
+
+namespace
+{
+
+/// K = rho0 c0^2 = 18 Pa; fails at a tension of 0.09 Pa, a strain of about 0.5 per cent.
+Material brittle()
+{
+  Material m = elastic();
+  m.failure.spall_pressure = 0.09;
+  return m;
+}
+
+Scene trackedScene(std::vector<Material> const &laws, std::function<std::vector<Fill>(int, int)> const &contents,
+                   Kinematics kinematics = Kinematics::Xfem)
+{
+  Scene s = makeScene(2, 1, 0.0, laws, contents, kinematics);
+  s.state.tracks_damage = true;
+  s.state.damage = View<double *>("damage", s.pairs.num_pairs);
+  s.state.centroid = View<double *[2]>("centroid", s.pairs.num_pairs);
+  return s;
+}
+
+/// One step of dt = 1 in which the left cell is strained by `rate` and the right one moves along.
+FailureReport strainLeftCell(Scene &s, double rate, Kinematics kinematics = Kinematics::Xfem)
+{
+  s.setVelocity([&](int, Vector2 x) { return Vector2{rate * Math::min(x[0], 1.0), 0.0}; });
+  computeCornerForces(s.mesh, s.pairs, s.state, s.materials, s.options, s.work);
+  Kokkos::deep_copy(s.work.half, s.state.velocity);
+  keepForFailure(s.pairs, s.state, s.work);
+  TimeStepLimit next;
+  s.update(1.0, next);
+  return failPairs(s.mesh, kinematics, s.pairs, s.state, s.materials, true, 1.0, s.work);
+}
+
+double pressure(Scene const &s, Material const &law, int pair)
+{
+  auto const r = onHost(s.state.record);
+  return equationOfState(law, r(pair, SpecificVolume), r(pair, InternalEnergy)).pressure;
+}
+
+} // namespace
+
+TEST(FailPairs, TensionBelowTheLimit_leavesTheBitsOfTheUpdate)
+{
+  Scene s = trackedScene({brittle()}, full), plain = makeScene(2, 1, 0.0, {elastic()}, full);
+  FailureReport const report = strainLeftCell(s, 0.004);
+  plain.setVelocity([](int, Vector2 x) { return Vector2{0.004 * Math::min(x[0], 1.0), 0.0}; });
+  computeCornerForces(plain.mesh, plain.pairs, plain.state, plain.materials, plain.options, plain.work);
+  Kokkos::deep_copy(plain.work.half, plain.state.velocity);
+  TimeStepLimit next;
+  plain.update(1.0, next);
+  EXPECT_EQ(report.failed, 0);
+  EXPECT_FALSE(report.fractions_changed);
+  auto const a = onHost(s.state.record), b = onHost(plain.state.record);
+  for (int f = 0; f < num_pair_fields; ++f)
+    EXPECT_EQ(a(0, f), b(0, f)) << f;
+}
+
+TEST(FailPairs, TensionAboveTheLimit_becomesVoidWithMassAndEnergyKept)
+{
+  Scene s = trackedScene({brittle()}, full);
+  FailureReport const report = strainLeftCell(s, 0.02);
+  auto const r = onHost(s.state.record);
+  EXPECT_EQ(report.failed, 1);
+  EXPECT_TRUE(report.fractions_changed);
+  EXPECT_EQ(onHost(s.state.damage)(0), failed_damage);
+  EXPECT_NEAR(pressure(s, brittle(), 0), 0.0, 1e-10);
+  EXPECT_EQ(r(0, DeviatorXX), 0.0);
+  // the moved cell is 1.02 long and the material fills 1 of it
+  EXPECT_NEAR(r(0, VolumeFraction) * 1.02, 1.0, 1e-9);
+  EXPECT_NEAR(r(0, SpecificVolume), 0.5, 1e-9);
+  EXPECT_EQ(r(0, Mass), 2.0);
+  EXPECT_EQ(r(0, InternalEnergy), 0.0); // there were no forces in this step
+  auto const kind = onHost(s.pairs.cell_kind);
+  EXPECT_EQ(kind(0), static_cast<int>(MixedCell));
+  EXPECT_EQ(kind(1), static_cast<int>(PureCell));
+  EXPECT_DOUBLE_EQ(onHost(s.state.centroid)(0, 0), 0.5);
+  EXPECT_EQ(r(1, VolumeFraction), 1.0);
+}
+
+TEST(FailPairs, FailedPairCompressed_closesItsVoidBeforeItFeelsPressure)
+{
+  Scene s = trackedScene({brittle()}, [](int i, int) { return std::vector<Fill>{{0, i == 0 ? 0.95 : 1.0}}; });
+  Kokkos::deep_copy(s.state.damage, failed_damage);
+  strainLeftCell(s, -0.03);
+  auto r = onHost(s.state.record);
+  EXPECT_NEAR(r(0, VolumeFraction) * 0.97, 0.95, 1e-15);
+  EXPECT_NEAR(r(0, SpecificVolume), 0.5, 1e-15);
+  // On the unmoved cell again: what is left of the void and 1 per cent more.
+  auto const fraction = r(0, VolumeFraction);
+  double const strain = (1.0 - fraction) + 0.01;
+  strainLeftCell(s, -strain);
+  r = onHost(s.state.record);
+  EXPECT_EQ(r(0, VolumeFraction), 1.0);
+  EXPECT_NEAR(r(0, SpecificVolume) / 0.5, (1.0 - strain) / fraction, 1e-14);
+  EXPECT_GT(pressure(s, brittle(), 0), 0.0);
+  EXPECT_EQ(onHost(s.pairs.cell_kind)(0), static_cast<int>(PureCell));
+  EXPECT_EQ(r(0, DeviatorXX), 0.0);
+}
+
+TEST(FailPairs, OtherMaterialsOfTheCell_areLeftAlone)
+{
+  Scene s = trackedScene({brittle(), elastic()},
+                         [](int i, int) {
+                           return i == 0 ? std::vector<Fill>{{0, 0.4}, {1, 0.5}} : std::vector<Fill>{{1, 1.0}};
+                         });
+  Kokkos::deep_copy(s.state.damage, failed_damage); // a law that cannot fail does not look at it
+  strainLeftCell(s, -0.3);
+  auto const r = onHost(s.state.record);
+  EXPECT_EQ(r(1, VolumeFraction), 0.5);
+  EXPECT_EQ(r(0, VolumeFraction), 0.5); // all of the void
+  EXPECT_NEAR(r(0, SpecificVolume) / 0.5, 0.7 * 0.5 / 0.4, 1e-14);
+  EXPECT_NE(r(1, DeviatorXX), 0.0);
+}
+
+TEST(FailPairs, BodyFittedCell_keepsItsRegionAndItsVoidInside)
+{
+  Scene s = trackedScene({brittle()}, full, Kinematics::Lagrangian);
+  FailureReport const report = strainLeftCell(s, 0.02, Kinematics::Lagrangian);
+  EXPECT_EQ(report.failed, 1);
+  EXPECT_FALSE(report.fractions_changed);
+  EXPECT_EQ(onHost(s.pairs.cell_kind)(0), static_cast<int>(PureCell));
+  EXPECT_NEAR(onHost(s.state.record)(0, VolumeFraction) * 1.02, 1.0, 1e-9);
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CELL_VOID_HPP
+#define HARMOS_CELL_VOID_HPP
+
+#include <Harmos_CellMaterialPairs.hpp>
+
+namespace Harmos
+{
+
+/// What no pair of a cell fills, a part of it; round-off may make it slightly negative.
+KOKKOS_INLINE_FUNCTION double voidFraction(CellMaterialPairs const &pairs,
+                                           View<double *[num_pair_fields]> const &record, int cell)
+{
+  double rest = 1.0;
+  for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
+    rest -= record(pair, VolumeFraction);
+  return rest;
+}
+
+/// Whether there is void in a cell, beyond round-off.
+KOKKOS_INLINE_FUNCTION bool isOpen(CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,
+                                   int cell)
+{
+  return voidFraction(pairs, record, cell) > 1e-9;
+}
+
+} // namespace Harmos
+
+#endif
