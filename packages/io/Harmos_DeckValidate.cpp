@@ -121,9 +121,21 @@ private:
         if (!missing && actual == value)
           activate(listOf(entry), input, path, active);
         else
-          for (std::string const &other : names(listOf(entry)))
-            active.elsewhere.emplace_back(other, name);
+          listElsewhere(listOf(entry), name, active);
       }
+    }
+  }
+
+  /// The keys that stand under a condition that does not hold, and under further conditions there.
+  static void listElsewhere(ParameterList const &schema, std::string const &condition, Active &active)
+  {
+    for (auto i = schema.begin(); i != schema.end(); ++i)
+    {
+      std::string key, value;
+      if (isCondition(schema.name(i), key, value))
+        listElsewhere(listOf(schema.entry(i)), condition + ", " + schema.name(i), active);
+      else
+        active.elsewhere.emplace_back(schema.name(i), condition);
     }
   }
 
