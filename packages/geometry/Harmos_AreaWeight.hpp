@@ -55,13 +55,20 @@ KOKKOS_INLINE_FUNCTION Moments<Order> moments(Polygon<Capacity> const &polygon, 
                           : weighted<Order>(moments<Order + 1>(polygon, origin), weight);
 }
 
-/// Signed volume of a polygon: its area, or per radian that of the ring it sweeps (Pappus).
+/// Signed volume of a polygon: the integral of a weight whose points have the polygon's origin.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION double volume(Polygon<Capacity> const &polygon, AreaWeight const &weight)
+{
+  if (weight.uniform() || polygon.size < 3)
+    return area(polygon);
+  return moments<0>(polygon, polygon[0], {weight.at(polygon[0]), weight.slope}).volume();
+}
+
+/// Its area, or per radian the volume of the ring it sweeps (Pappus). [length^2, or length^3]
 template <int Capacity>
 KOKKOS_INLINE_FUNCTION double volume(Polygon<Capacity> const &polygon, Geometry geometry)
 {
-  if (geometry == Geometry::Planar || polygon.size < 3)
-    return area(polygon);
-  return moments<0>(polygon, polygon[0], areaWeight(geometry, polygon[0])).volume();
+  return volume(polygon, areaWeight(geometry, {0.0, 0.0}));
 }
 
 /// Where the volume's weight balances: the area's centroid, or that of the ring's section weighted by the radius.

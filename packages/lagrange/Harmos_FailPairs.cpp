@@ -126,7 +126,7 @@ void updateCellKinds(Mesh const &mesh, PairState const &state, CellMaterialPairs
     pairs.cell_kind = kind;
 }
 
-/// Before a cell becomes mixed its centroid is its own.
+/// Before a pure cell becomes mixed: its centroid is the cell's.
 void centrePureCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state)
 {
   auto const centroid = state.centroid;
@@ -134,14 +134,9 @@ void centrePureCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState
       "Harmos::lagrange::centrePureCells", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
         if (pairs.cell_kind(cell) != PureCell)
           return;
-        int const pair = pairs.offset(cell);
-        for (int d = 0; d < 2; ++d)
-        {
-          double sum = 0.0;
-          for (int k = 0; k < 4; ++k)
-            sum += mesh.node_position(mesh.cell_node(cell, k), d);
-          centroid(pair, d) = 0.25 * sum;
-        }
+        Vector2 const x = volumeCentroid(cellQuadrilateral(mesh, cell), mesh.geometry);
+        centroid(pairs.offset(cell), 0) = x[0];
+        centroid(pairs.offset(cell), 1) = x[1];
       });
 }
 

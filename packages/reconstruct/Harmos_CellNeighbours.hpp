@@ -16,14 +16,6 @@ struct NeighbourPack
   Pack present; // 1, or 0 where there is no neighbour: such a lane repeats another one
 };
 
-/// Volume of a quadrilateral.
-KOKKOS_INLINE_FUNCTION double fullVolume(Quadrilateral const &quad, AreaWeight const &weight)
-{
-  if (weight.uniform())
-    return area(quad);
-  return moments<0>(quad, quad[0], {weight.at(quad[0]), weight.slope}).volume();
-}
-
 /// The vertex neighbours of a cell, in packs in the order of its row. Those of usual cells are stored.
 class CellNeighbours
 {
@@ -81,7 +73,7 @@ private:
         row[2 * k][lane] = quad[k][0];
         row[2 * k + 1][lane] = quad[k][1];
       }
-      row[8][lane] = fullVolume(quad, components_.weight);
+      row[8][lane] = volume(quad, components_.weight);
       row[9][lane] = p * pack_width + lane < count_ ? 1.0 : 0.0;
     }
     NeighbourPack n;

@@ -116,19 +116,19 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
                   View<double *[2]> const &half, double dt, RigidRows const &rigid, RemapOptions const &options,
                   RemapReport &report);
 
-/// The largest part of its moved area that a pure cell of a single material gives away through its faces: their swept
-/// volumes out of it over it. Above 1 (nodes that move along the cells' diagonals by more than half of them) swept
-/// faces leave the range of the donors and amplify noise: the caller repeats the step with a smaller one. Owned cells
-/// of this rank; arguments as of `remap`.
-double largestSweptPart(Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[2]> const &half, double dt,
-                        View<double *[2]> const &start = {});
-
 /// The same with work arrays that live longer than one call.
 RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs const &pairs,
                   NodeMaterialPairs const &dof_nodes, PairState const &state, FilledRegions const &regions,
                   BoundaryConditions const &conditions, View<Material *> const &materials,
                   View<double *[2]> const &half, double dt, RigidRows const &rigid, RemapOptions const &options,
                   RemapReport &report, RemapWork &work, View<double *[2]> const &start = {});
+
+/// The largest part of its moved volume that a pure cell gives away through its faces: their swept
+/// volumes out of it over it. Above 1 (nodes that move along the cells' diagonals by more than half of them) swept
+/// faces leave the range of the donors and amplify noise: the caller repeats the step with a smaller one. Owned cells
+/// of this rank; arguments as of `remap`. \return [1], 0 where no cell is pure.
+double largestSweptPart(Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[2]> const &half, double dt,
+                        View<double *[2]> const &start = {});
 
 } // namespace Harmos
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Impact.hpp"
+#include "ExpectKept.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,23 +53,10 @@ TEST(TargetMesh, thatSwings_keepsMassMomentumAndEnergyAndTheMotion)
   still.run(2e-4);
   moving.run(2e-4);
   ASSERT_EQ(moving.failures, 0);
-  MaterialSums const after = moving.sums(), eulerian = still.sums();
-  double momentum[2] = {0.0, 0.0}, energy = 0.0, start = 0.0;
-  for (int m = 0; m < 2; ++m)
-  {
-    EXPECT_NEAR(after(m, SumMass) / before(m, SumMass), 1.0, 1e-13);
-    momentum[0] += after(m, SumMomentumX) - before(m, SumMomentumX);
-    momentum[1] += after(m, SumMomentumY) - before(m, SumMomentumY);
-    energy += after(m, SumKineticEnergy) + after(m, SumInternalEnergy);
-    start += before(m, SumKineticEnergy) + before(m, SumInternalEnergy);
-    // what the disc gives to the block, on either mesh
-    EXPECT_NEAR(after(m, SumMomentumX), eulerian(m, SumMomentumX), 0.01 * before(0, SumMomentumX));
-  }
-  EXPECT_LT(eulerian(1, SumMomentumX) / before(0, SumMomentumX), 1.0);
-  EXPECT_GT(eulerian(1, SumMomentumX) / before(0, SumMomentumX), 0.1);
-  EXPECT_NEAR(momentum[0], moving.impulse[0], 1e-12 * before(0, SumMomentumX));
-  EXPECT_NEAR(momentum[1], moving.impulse[1], 1e-12 * before(0, SumMomentumX));
-  EXPECT_NEAR(energy + moving.loss - moving.work, start, 1e-3 * start);
+  expectKept(before, moving, still, 0.01);
+  double const given = still.sums()(1, SumMomentumX) / before(0, SumMomentumX);
+  EXPECT_LT(given, 1.0);
+  EXPECT_GT(given, 0.1);
   for (int d = 0; d < 2; ++d)
     EXPECT_NEAR(moving.state.tracers[0].position[d], still.state.tracers[0].position[d], 1e-3);
   EXPECT_EQ(locatePoints(moving.scene.mesh, {moving.state.tracers[0].position}, moving.alone)[0],

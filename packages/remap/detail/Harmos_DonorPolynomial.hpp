@@ -276,6 +276,18 @@ struct PolynomialFinder
     }
   }
 
+  /// The gradient of a donor of mean q, not yet limited; the range g starts with its values before and after stage 1.
+  /// \return Its mean before stage 1: differences of corner velocities are taken between like times.
+  KOKKOS_INLINE_FUNCTION StageFields donorGradient(int donor, int cell, StageFields const &q, Gradient &g,
+                                                   FaceNeighbours &beyond) const
+  {
+    StageFields const before{q.record, FieldPack(&donors.half(donor, 0))};
+    g.lower = {q.record, lesser(q.corner, before.corner)};
+    g.upper = {q.record, greater(q.corner, before.corner)};
+    gradient(cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before, g, beyond);
+    return before;
+  }
+
   /// Of a moving donor of `cell`; vertices about its centroid.
   KOKKOS_INLINE_FUNCTION DonorPolynomial polynomial(int donor, int cell, MovedVertices const &v) const
   {
@@ -283,13 +295,9 @@ struct PolynomialFinder
     if (in.options.order == 1)
       return result;
     StageFields const &q = result.mean;
-    // Differences of corner velocities are taken between like times.
-    StageFields const before{q.record, FieldPack(&donors.half(donor, 0))};
     Gradient g;
-    g.lower = {q.record, lesser(q.corner, before.corner)};
-    g.upper = {q.record, greater(q.corner, before.corner)};
     FaceNeighbours beyond;
-    gradient(cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before, g, beyond);
+    donorGradient(donor, cell, q, g, beyond);
     if (in.options.limiter == RemapLimiter::VanLeer)
     {
       limitVanLeer(beyond, false, g.x.record, g.y.record);

@@ -415,12 +415,9 @@ struct QuadraticFinder : PolynomialFinder
   {
     Polynomial p = constant(loadStageFields(&donors.value(donor, 0)));
     StageFields const &q = p.mean;
-    StageFields const before{q.record, FieldPack(&donors.half(donor, 0))};
     Gradient g;
-    g.lower = {q.record, lesser(q.corner, before.corner)};
-    g.upper = {q.record, greater(q.corner, before.corner)};
     FaceNeighbours beyond;
-    gradient(cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before, g, beyond);
+    StageFields const before = donorGradient(donor, cell, q, g, beyond);
     coefficients(donor, cell, before, g, p);
     if (in.options.limiter == RemapLimiter::VanLeer)
       limitVanLeer(beyond, p);
