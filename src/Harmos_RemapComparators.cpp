@@ -244,7 +244,7 @@ std::vector<double> project(bool consistent, HostCells const &from, HostCells co
 std::vector<double> remapByComparator(RemapScheme scheme, int order, Mesh const &from, Mesh const &to,
                                       std::vector<double> const &value)
 {
-  if (scheme == RemapScheme::Swept || scheme == RemapScheme::Intersection)
+  if (scheme == RemapScheme::Swept || scheme == RemapScheme::Intersection || scheme == RemapScheme::FieldIntersection)
     throw std::runtime_error("remapByComparator: the scheme is none of the comparators");
   HostCells const donors = hostCells(from), acceptors = hostCells(to);
   std::vector<Vector2> const slope = slopesOf(donors, value, order);

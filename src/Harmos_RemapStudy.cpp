@@ -8,6 +8,7 @@
 #include <Harmos_HostMesh.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Partition.hpp>
+#include <Harmos_RemapFields.hpp>
 #include <Harmos_StateExchange.hpp>
 #include <Harmos_TpetraExchange.hpp>
 
@@ -61,6 +62,7 @@ struct Study
   BoundaryConditions conditions;
   View<Material *> materials;
   RemapWork work;
+  FieldWork field_work;
   Vector2 wall_impulse = {0.0, 0.0}; // all steps [N s/m]
 };
 
@@ -273,6 +275,47 @@ void stepByRemap(Study &s, RemapDeck const &deck, Exchange const &exchange, Stud
   exchangeState(s.next, Kinematics::Xfem, exchange, s.next.halo, s.pairs, s.dof_nodes, s.state);
 }
 
+/// Set the field on mesh `next`.
+void setValues(Study const &s, bool density, View<double *> const &value)
+{
+  auto const record = s.state.record;
+  auto const area = s.next.cell_area;
+  Kokkos::parallel_for(
+      "Harmos::setValues", RangePolicy(0, s.next.num_cells), KOKKOS_LAMBDA(int cell) {
+        if (density)
+          record(cell, Mass) = value(cell) * area(cell);
+        else
+          record(cell, InternalEnergy) = value(cell);
+      });
+}
+
+/// The field without its material.
+void stepByFields(Study &s, RemapDeck const &deck, Exchange const &exchange, StudyRow &row)
+{
+  RemapOptions options;
+  options.order = deck.order;
+  options.limiter = deck.limiter;
+  View<double *> const value = valuesOf(s, deck.field.density), next("Harmos::next", s.mesh.num_cells);
+  CellFields const fields{View<double **>(value.data(), s.mesh.num_cells, 1)};
+  CellFields const remapped{View<double **>(next.data(), s.mesh.num_cells, 1)};
+  int failures = 0;
+  auto const once = [&]
+  {
+    failures = remapFields(s.next, s.mesh.node_position, fields, remapped, options, s.field_work);
+    Kokkos::fence();
+  };
+  if (!s.field_work.scratch)
+    once(); // work arrays, which belong to no step
+  Kokkos::Timer timer;
+  std::clock_t const cpu = std::clock();
+  once();
+  row.seconds += timer.seconds();
+  row.cpu_seconds += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  require(failures == 0, exchange, "remap: a cell left its neighbourhood; expected: more steps");
+  setValues(s, deck.field.density, next);
+  exchangeState(s.next, Kinematics::Xfem, exchange, s.next.halo, s.pairs, s.dof_nodes, s.state);
+}
+
 void stepByComparator(Study &s, RemapDeck const &deck, StudyRow &row)
 {
   View<double *> const value = valuesOf(s, false);
@@ -286,10 +329,7 @@ void stepByComparator(Study &s, RemapDeck const &deck, StudyRow &row)
   for (std::size_t cell = 0; cell < next.size(); ++cell)
     host(cell) = next[cell];
   Kokkos::deep_copy(value, host);
-  auto const record = s.state.record;
-  Kokkos::parallel_for(
-      "Harmos::setValues", RangePolicy(0, s.mesh.num_cells),
-      KOKKOS_LAMBDA(int cell) { record(cell, InternalEnergy) = value(cell); });
+  setValues(s, false, value);
 }
 
 StudyRow runOne(RemapDeck const &deck, int cells, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
@@ -311,12 +351,15 @@ StudyRow runOne(RemapDeck const &deck, int cells, Teuchos::RCP<Teuchos::Comm<int
     placeNodes(deck.motion, cells, step, row.steps, s.reference, s.next);
     require(countInvertedCells(s.next) == 0, exchange, "remap: step " + std::to_string(step) + " folds a cell");
     row.courant = std::max(row.courant, exchange.max(courantOf(s.mesh, s.next)));
-    if (deck.scheme == RemapScheme::Swept || deck.scheme == RemapScheme::Intersection)
+    bool const whole_records = deck.scheme == RemapScheme::Swept || deck.scheme == RemapScheme::Intersection;
+    if (whole_records)
       stepByRemap(s, deck, exchange, row);
+    else if (deck.scheme == RemapScheme::FieldIntersection)
+      stepByFields(s, deck, exchange, row);
     else
       stepByComparator(s, deck, row);
     std::swap(s.mesh, s.next);
-    if (deck.scheme == RemapScheme::Swept || deck.scheme == RemapScheme::Intersection)
+    if (whole_records)
       noteSwirl(swirl, swirlOf(s, exchange), row);
     Sums const now = sumsOf(s.mesh, valuesOf(s, deck.field.density), start, exchange);
     row.conservation = std::max(row.conservation, std::fabs(now.total - before.total) / std::fabs(before.total));
@@ -382,9 +425,8 @@ std::vector<double> columnsOf(StudyRow const &row, StudyRow const *coarser)
 ExitStatus studyRemap(RemapDeck const &deck, RunOptions const &options,
                       Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
 {
-  bool const compares = deck.scheme != RemapScheme::Swept && deck.scheme != RemapScheme::Intersection;
-  if (compares && comm->getSize() > 1)
-    throw DeckError("scheme: comparators run on one rank; expected: swept or intersection");
+  if (deck.compares() && comm->getSize() > 1)
+    throw DeckError("scheme: comparators run on one rank; expected: swept, intersection or field intersection");
   if (!options.restart.empty())
     throw DeckError("--restart means nothing to remap");
   std::string const problem = comm->getRank() == 0 ? claimFolder(options) : "";

@@ -49,12 +49,17 @@ PairCounts countPairs(Scene const &scene, CycleState const &s)
   return counts;
 }
 
+/// Volume fraction below which a piece does not count in the extents: a film that a contact has pressed into the next
+/// cell by its tolerance would reach across that cell.
+constexpr double film = 1e-6;
+
 /// Least and greatest coordinates of the filled regions of all ranks: x_min, x_max, y_min, y_max by material.
 std::vector<double> extents(Scene const &scene, CycleState const &s, FilledRegions const &regions, int num_materials)
 {
   double const none = 1e300;
   auto const mesh = scene.mesh;
   auto const pairs = s.pairs;
+  auto const record = s.state.record;
   std::vector<double> result;
   // A minimum does not depend on the order. Materials are few: each takes a pass of its own.
   for (int m = 0; m < num_materials; ++m)
@@ -64,7 +69,7 @@ std::vector<double> extents(Scene const &scene, CycleState const &s, FilledRegio
         "Harmos::extents", RangePolicy(0, pairs.num_pairs),
         KOKKOS_LAMBDA(int pair, double &x_low, double &x_high, double &y_low, double &y_high) {
           int const cell = pairs.cell(pair);
-          if (pairs.material(pair) != m || mesh.cell_depth(cell) != 0)
+          if (pairs.material(pair) != m || mesh.cell_depth(cell) != 0 || record(pair, VolumeFraction) < film)
             return;
           Region const region = regions.region(mesh, pairs, pair);
           for (int i = 0; i < region.size; ++i)

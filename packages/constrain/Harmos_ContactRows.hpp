@@ -60,6 +60,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
 /// One row for every two materials that move a node (Merged: for every two that follow each other in its list, tied),
 /// where they move it: G v = n . (v_b - v_a) of the node's own dofs, n the direction from the volume of a to that of b
 /// in the cells around the node. The slave cell is the first around the node that holds material a.
+/// Throws std::runtime_error where more than six materials (merged: 17) meet at a node.
 ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                            FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
                            ConstraintOptions const &options);

@@ -2,6 +2,8 @@
 #include <Harmos_ContactRows.hpp>
 #include <Harmos_Moments.hpp>
 
+#include <stdexcept>
+
 namespace Harmos
 {
 
@@ -79,7 +81,7 @@ struct NodalRowBuilder
       {
         int const a = dof_nodes.material(i);
         for (int j = i + 1; a >= 0 && j < (merged ? Math::min(i + 2, end) : end); ++j)
-          if (firstCell(node, a) == 4 * cell + corner && number < max_corner_rows)
+          if (firstCell(node, a) == 4 * cell + corner)
           {
             ContactRow row = {};
             row.key = mesh.cell_global(cell) * max_cell_segments + corner * max_corner_rows + number++;
@@ -116,6 +118,22 @@ private:
   }
 };
 
+/// \throw std::runtime_error where a node is moved by more materials than a corner's rows can be numbered for.
+void checkMaterialsAtNodes(NodeMaterialPairs const &dof_nodes, bool merged)
+{
+  int most = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::mostMaterials", RangePolicy(0, static_cast<int>(dof_nodes.offset.extent(0)) - 1),
+      KOKKOS_LAMBDA(int node, int &largest) {
+        largest = Math::max(largest, dof_nodes.offset(node + 1) - dof_nodes.offset(node));
+      },
+      Kokkos::Max<int>(most));
+  int const rows = merged ? most - 1 : most * (most - 1) / 2;
+  if (rows > max_corner_rows)
+    throw std::runtime_error("nodal contact: " + std::to_string(most) + " materials at one node make " +
+                             std::to_string(rows) + " pairs, at most " + std::to_string(max_corner_rows));
+}
+
 } // namespace
 
 ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
@@ -124,6 +142,7 @@ ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
 {
   NodalRowBuilder const builder{mesh,       pairs,  dof_nodes,           regions,
                                 conditions, bodies, options.interaction, options.method == ConstraintMethod::Merged};
+  checkMaterialsAtNodes(dof_nodes, builder.merged);
   View<int *> const first("Harmos::constrain::first_nodal_row", mesh.num_cells);
   ContactRows rows;
   Kokkos::parallel_scan(

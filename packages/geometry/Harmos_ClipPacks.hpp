@@ -14,13 +14,16 @@ struct WindowPack
   Pack x[4], y[4];
 };
 
-/// Moments of the parts of one polygon in several windows, a lane each, as Moments<2> orders them.
-struct OverlayPack
+/// Moments of the parts of polygons in windows, a lane each, as Moments<Order> orders them.
+template <int Order>
+struct OverlayPackOf
 {
-  Pack value[Moments<2>::count];
+  Pack value[Moments<Order>::count];
   Pack pieces; // 1 or less; more: a window's side cuts the polygon, which motion has bent, into pieces, and the
                // moments are wrong
 };
+
+using OverlayPack = OverlayPackOf<2>;
 
 constexpr int most_pack_vertices = 8;
 
@@ -59,12 +62,14 @@ KOKKOS_FORCEINLINE_FUNCTION void activeFirst(SidePack &a, SidePack &b)
   order(a.active, b.active);
 }
 
-/// The windows' sides, in each lane the active ones first. \return The most active sides of any lane.
-KOKKOS_FORCEINLINE_FUNCTION int sidesOf(WindowPack const &w, int size, double const *x, double const *y,
+/// The windows' sides, in each lane the active ones first. \return The most active sides of any lane; -1 where every
+/// polygon lies beyond one of them.
+template <class Coordinate>
+KOKKOS_FORCEINLINE_FUNCTION int sidesOf(WindowPack const &w, int size, Coordinate const *x, Coordinate const *y,
                                         SidePack (&side)[4])
 {
   Pack const zero = 0.0, one = 1.0;
-  Pack count = zero;
+  Pack count = zero, beyond = zero;
   for (int k = 0; k < 4; ++k)
   {
     int const next = (k + 1) & 3;
@@ -73,12 +78,22 @@ KOKKOS_FORCEINLINE_FUNCTION int sidesOf(WindowPack const &w, int size, double co
     s.y = w.y[k];
     s.nx = w.y[next] - w.y[k];
     s.ny = w.x[k] - w.x[next];
-    Pack farthest = zero;
+    Pack farthest = zero, nearest = one;
     for (int i = 0; i < size; ++i)
-      farthest = Math::max(farthest, Pack(s.nx * (Pack(x[i]) - s.x) + s.ny * (Pack(y[i]) - s.y)));
+    {
+      Pack const distance = s.nx * (Pack(x[i]) - s.x) + s.ny * (Pack(y[i]) - s.y);
+      farthest = Math::max(farthest, distance);
+      nearest = Math::min(nearest, distance);
+    }
     s.active = select(farthest > zero, one, zero);
     count += s.active;
+    beyond = select(nearest < zero, beyond, one);
   }
+  double meets = 1.0;
+  for (int lane = 0; lane < pack_width; ++lane)
+    meets = Math::min(meets, laneOf(beyond, lane));
+  if (meets > 0.0)
+    return -1;
   activeFirst(side[0], side[1]);
   activeFirst(side[2], side[3]);
   activeFirst(side[0], side[2]);
@@ -126,11 +141,10 @@ KOKKOS_FORCEINLINE_FUNCTION Pack cutChain(EdgeChain &c, SidePack const &side)
   return pieces;
 }
 
-KOKKOS_FORCEINLINE_FUNCTION void addMoments(EdgeChain const &chain, OverlayPack &m)
+template <int Order>
+KOKKOS_FORCEINLINE_FUNCTION void addMoments(EdgeChain const &chain, OverlayPackOf<Order> &m)
 {
   Pack const half = 0.5;
-  for (Pack &value : m.value)
-    value = 0.0;
   for (int i = 0; i < chain.count; ++i)
   {
     Pack const ax = chain.start_x[i], ay = chain.start_y[i], bx = chain.end_x[i], by = chain.end_y[i];
@@ -139,24 +153,38 @@ KOKKOS_FORCEINLINE_FUNCTION void addMoments(EdgeChain const &chain, OverlayPack 
     m.value[0] += c;
     m.value[1] += c * x;
     m.value[2] += c * y;
-    m.value[3] += c * (x * x - ax * bx);
-    m.value[4] += c * (ax * ay + bx * by + half * (ax * by + bx * ay));
-    m.value[5] += c * (y * y - ay * by);
+    if constexpr (Order == 2)
+    {
+      m.value[3] += c * (x * x - ax * bx);
+      m.value[4] += c * (ax * ay + bx * by + half * (ax * by + bx * ay));
+      m.value[5] += c * (y * y - ay * by);
+    }
   }
   m.value[0] = half * m.value[0];
-  for (int i = 1; i < Moments<2>::count; ++i)
+  for (int i = 1; i < Moments<Order>::count; ++i)
     m.value[i] = Pack(i < 3 ? 1.0 / 6.0 : 1.0 / 12.0) * m.value[i];
 }
 
 } // namespace Detail
 
-/// Moments about the origin of the parts of a polygon in convex windows, exact where no side cuts it into pieces (a
+/// Moments about the origin of the parts of polygons in convex windows, exact where no side cuts one into pieces (a
 /// convex polygon never is).
 ///
-/// \param size, x, y Vertices, counter-clockwise; at most most_pack_vertices. [length]
-KOKKOS_INLINE_FUNCTION OverlayPack momentsInWindows(int size, double const *x, double const *y,
-                                                    WindowPack const &windows)
+/// \tparam Order 1 or 2.
+/// \param size, x, y Vertices, counter-clockwise; at most most_pack_vertices: of one polygon (double) or of one a lane
+/// (Pack). [length]
+template <int Order = 2, class Coordinate>
+KOKKOS_INLINE_FUNCTION OverlayPackOf<Order> momentsInWindows(int size, Coordinate const *x, Coordinate const *y,
+                                                             WindowPack const &windows)
 {
+  OverlayPackOf<Order> m;
+  m.pieces = 0.0;
+  for (Pack &value : m.value)
+    value = 0.0;
+  Detail::SidePack side[4];
+  int const cuts = Detail::sidesOf(windows, size, x, y, side);
+  if (cuts < 0)
+    return m;
   Detail::EdgeChain chain;
   chain.count = size;
   for (int i = 0; i < size; ++i)
@@ -167,10 +195,6 @@ KOKKOS_INLINE_FUNCTION OverlayPack momentsInWindows(int size, double const *x, d
     chain.end_x[i] = x[next];
     chain.end_y[i] = y[next];
   }
-  OverlayPack m;
-  m.pieces = 0.0;
-  Detail::SidePack side[4];
-  int const cuts = Detail::sidesOf(windows, size, x, y, side);
   for (int j = 0; j < cuts; ++j)
     m.pieces = Math::max(m.pieces, Detail::cutChain(chain, side[j]));
   Detail::addMoments(chain, m);

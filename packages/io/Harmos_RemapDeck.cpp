@@ -32,11 +32,12 @@ void add(ParameterList &list, std::string const &name, T const &value, KeyType t
 
 RemapScheme schemeOf(std::string const &word)
 {
-  return word == "swept"               ? RemapScheme::Swept
-         : word == "intersection"      ? RemapScheme::Intersection
-         : word == "interpolation"     ? RemapScheme::Interpolation
-         : word == "lumped projection" ? RemapScheme::LumpedProjection
-                                       : RemapScheme::ConsistentProjection;
+  return word == "swept"                ? RemapScheme::Swept
+         : word == "intersection"       ? RemapScheme::Intersection
+         : word == "field intersection" ? RemapScheme::FieldIntersection
+         : word == "interpolation"      ? RemapScheme::Interpolation
+         : word == "lumped projection"  ? RemapScheme::LumpedProjection
+                                        : RemapScheme::ConsistentProjection;
 }
 
 void require(bool holds, std::string const &file, std::string const &key, std::string const &what)
@@ -72,10 +73,12 @@ ParameterList remapSchema()
       "energy: specific internal energy of a material of density one; density: the density, positive everywhere", {},
       {"energy", "density"});
   add(schema, "scheme", std::string("swept"), KeyType::Choice,
-      "swept, intersection: the remap of the cycle. Comparators, on one rank: interpolation at the new centroids; "
+      "swept, intersection: the remap of the cycle, with all that it carries; field intersection: the field alone. "
+      "Comparators, on one rank: interpolation at the new centroids; "
       "lumped "
       "or consistent projection: least squares on bilinear elements",
-      {}, {"swept", "intersection", "interpolation", "lumped projection", "consistent projection"});
+      {},
+      {"swept", "intersection", "field intersection", "interpolation", "lumped projection", "consistent projection"});
   add(schema, "order", 2, KeyType::Integer,
       "1: constant in a cell; 2: linear; 3: quadratic, scheme intersection alone. Limited in the remap of the cycle",
       {1.0, 3.0, false, false});
@@ -120,13 +123,15 @@ RemapDeck readRemapDeckText(std::string const &text, std::string const &file, st
     require(deck.cells.empty() || n > deck.cells.back(), file, "cells", "not ascending");
     deck.cells.push_back(static_cast<int>(n));
   }
-  bool const compares = deck.scheme != RemapScheme::Swept && deck.scheme != RemapScheme::Intersection;
+  bool const compares = deck.compares();
   require(!deck.field.density || (!deck.field.shock && deck.field.base > 1.0), file, "carrier",
           "the field is not positive everywhere; expected: energy, or field sine with base above 1");
   require(deck.order < 3 || deck.scheme == RemapScheme::Intersection, file, "order",
           "3 is for scheme intersection alone");
   require(!compares || deck.limiter == RemapLimiter::Range, file, "limiter",
           "a comparator has none; expected: scheme swept or intersection");
+  require(deck.scheme != RemapScheme::FieldIntersection || deck.limiter != RemapLimiter::VanLeer, file, "limiter",
+          "'van leer' is not for scheme field intersection; expected: range, range inside or none");
   require(!(compares && deck.field.density), file, "carrier",
           "density means nothing to a comparator, which knows one "
           "field alone; expected: energy");

@@ -16,6 +16,7 @@ enum class RemapScheme : int
 {
   Swept,
   Intersection,
+  FieldIntersection, // of the field alone (remapFields)
   Interpolation,
   LumpedProjection,
   ConsistentProjection
@@ -44,6 +45,11 @@ struct RemapDeck
   std::string json; // with all defaults
 
   int stepsOf(int cells_along_a_side) const;
+  bool compares() const
+  {
+    return scheme != RemapScheme::Swept && scheme != RemapScheme::Intersection &&
+           scheme != RemapScheme::FieldIntersection;
+  }
 };
 
 /// Every key of such a deck.

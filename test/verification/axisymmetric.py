@@ -4,9 +4,13 @@ axis on several ranks, the copper Taylor rod against other codes, and what is re
 """
 import math
 import pathlib
+import sys
 
 from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
-from harness import check, clean, harmos, read_columns, run
+from harness import EXAMPLE, check, clean, harmos, read_columns, run
+
+sys.path.insert(0, str(EXAMPLE / "taylor_experiments"))
+import shots
 
 DECKS = pathlib.Path(__file__).resolve().parent / "decks"
 ROD = "taylor_rod_axisymmetric/deck.yaml"
@@ -93,6 +97,36 @@ def test_copper_rod_has_the_length_and_radius_of_other_codes():
     check("mass", r.summary["mass_error"], 1e-13)
     check("energy", r.summary["energy_error"], 1e-12)
     clean(r)
+
+
+def test_rods_of_wilkins_and_guinan_have_the_measured_lengths():
+    every = {shot["shot"]: shot for shot in shots.rows(EXAMPLE / "taylor_experiments/shots.csv")}
+    for name, law in (("Cu 153", "johnson-cook"), ("6061 283", "johnson-cook"), ("6061 283", "steinberg-guinan")):
+        r = harmos("taylor_experiments/deck.yaml", {**shots.settings(every[name], law, 8), **QUIET})
+        length, _, _ = shots.measure(r.directory)
+        print(f"  {name} m/s, {law}: {length:.2f} mm, measured {every[name]['final_length']} mm")
+        check(f"{name}, {law}", abs(length / float(every[name]["final_length"]) - 1.0), 0.02)
+        clean(r)
+
+
+def test_friction_narrows_the_foot_alike_on_a_wall_and_on_a_rigid_anvil():
+    rod = {"mesh/x/cells": 18, "mesh/y/cells": 42, "bodies/rod/velocity": "[0.0, -130.0]", "run/end_time": 6.0e-5, **QUIET}
+    h = 26.67e-3 / 42
+    anvil = {"mesh/y/from": -8 * h, "mesh/y/cells": 50, "materials/anvil": "{eos: rigid, density: 8000.0}",
+             "bodies/anvil": f"{{material: anvil, shape: rectangle, center: [0.0, {-4 * h}], size: [0.03, {8 * h}]}}",
+             "boundaries/bottom/type": "slip wall"}
+    runs = [harmos("taylor_experiments/deck.yaml", {**rod, **more}) for more in
+            ({}, {"boundaries/bottom/friction": 0.3}, anvil,
+             {**anvil, "interactions/default": "friction", "interactions/coefficient": 0.3})]
+    width = [r.last("rod.x_max") for r in runs]
+    length = [r.last("rod.y_max") - r.last("rod.y_min") for r in runs]
+    print("  radius [mm], wall and anvil, smooth and rough:", *(f"{1e3 * w:.3f}" for w in width))
+    assert width[1] < 0.95 * width[0]
+    check("radius, smooth", abs(width[2] / width[0] - 1.0), 0.005)
+    check("radius, rough", abs(width[3] / width[1] - 1.0), 0.02)  # 0.4% at 12 cells
+    for wall, on_anvil in ((0, 2), (1, 3)):
+        check("length", abs(length[on_anvil] / length[wall] - 1.0), 0.003)
+    clean(*runs)
 
 
 def test_what_has_no_meaning_about_an_axis_is_refused():

@@ -37,6 +37,19 @@ def test_cyclic_remapping_beats_the_peer_limited_and_stays_in_range():
             conserves_within_range(f"{motion}, {field}, {scheme}", r)
 
 
+def test_the_field_alone_by_intersection():
+    # bounds: the figures asked of 64 x 64 cells
+    for motion, bound in [("tensor", 2.5e-3), ("smooth", 6e-4)]:
+        r = remap(motion=motion, scheme="field intersection", cells="[64.0]")
+        check(f"{motion}, sine, field intersection: L1", r["L1"][0], bound)
+        conserves_within_range(f"{motion}, field intersection", r)
+    r = remap("random.yaml", scheme="field intersection", limiter="range inside", cells="[32.0, 64.0, 128.0]")
+    for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
+        check("random, L1", error, peer)
+    r = remap("random.yaml", scheme="field intersection", carrier="density", cells="[32.0]")
+    conserves_within_range("random, density", r)
+
+
 def test_cyclic_remapping_without_limiter():
     for motion, peer in [("tensor", 1.27e-2), ("smooth", 2.60e-3)]:
         for scheme in ["swept", "intersection"]:
@@ -59,11 +72,13 @@ def test_random_meshes_orders_of_accuracy():
 
 
 def test_any_number_of_ranks_gives_the_same_errors():
-    one, two = (remap(cells="[32.0]", scheme="intersection", ranks=n) for n in (1, 2))
-    for column in ["L1", "L2"]:
-        check(f"{column} on two ranks", abs(two[column][0] / one[column][0] - 1.0), 1e-12)
-    for column in ["Linf", "below", "above"]:
-        check(f"{column} on two ranks", abs(two[column][0] - one[column][0]), 0.0)
+    for scheme in ["intersection", "field intersection"]:
+        one, two, four = (remap(cells="[32.0]", scheme=scheme, ranks=n) for n in (1, 2, 4))
+        for r in two, four:
+            for column in ["L1", "L2"]:
+                check(f"{scheme}: {column} on more ranks", abs(r[column][0] / one[column][0] - 1.0), 1e-12)
+            for column in ["Linf", "below", "above"]:
+                check(f"{scheme}: {column} on more ranks", abs(r[column][0] - one[column][0]), 0.0)
 
 
 def test_interpolation_loses_conservation():
@@ -90,6 +105,8 @@ def test_what_makes_no_sense_is_refused():
     assert "ascending" in remap(cells="[32.0, 16.0]", expect=2)
     assert "expected" in remap(scheme="interpolation", limiter="none", expect=2)
     assert "intersection" in remap(order=3, expect=2)
+    assert "intersection" in remap(scheme="field intersection", order=3, expect=2)
+    assert "expected" in remap(scheme="field intersection", limiter="van leer", expect=2)
     assert "unknown" in remap(limitor="none", expect=2).lower()
 
 

@@ -127,3 +127,30 @@ TEST(Methods, everyPlacement_givesTheSameImpulseOnAFlatImpact)
     expectMomentum(scene);
   }
 }
+
+// Four cells of two materials each around one node: 28 pairs there. Merged needs only seven rows there.
+TEST(Methods, nodal_eightMaterialsAtANode_areRefused)
+{
+  std::vector<Body> body;
+  for (int cell = 0; cell < 4; ++cell)
+    for (int half = 0; half < 2; ++half)
+    {
+      double const x = cell % 2 + 0.5 * half, y = cell / 2;
+      body.push_back(boxBody(2 * cell + half, x, y, x + 0.5, y + 1.0));
+    }
+  std::vector<BoundaryKind> const walls(4, BoundaryKind::SlipWall);
+  TinyScene scene(rectilinearMesh(uniform(2, 2), uniform(2, 2)), body, 8, walls);
+  scene.setVelocity([](int, Vector2 const &) { return Vector2{1.0, 0.0}; });
+  scene.options.method = ConstraintMethod::Merged;
+  EXPECT_EQ(scene.constrain().rows, 2 * (7 + 4 * 3 + 4 * 1)); // in the middle, on the sides, at the corners
+  scene.options.method = ConstraintMethod::Nodal;
+  try
+  {
+    scene.constrain();
+    FAIL() << "rows were dropped";
+  }
+  catch (std::runtime_error const &error)
+  {
+    EXPECT_STREQ(error.what(), "nodal contact: 8 materials at one node make 28 pairs, at most 16");
+  }
+}

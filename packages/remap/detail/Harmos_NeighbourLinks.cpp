@@ -14,8 +14,6 @@ namespace RemapDetail
 namespace
 {
 
-constexpr int most_slots = 64; // bits of a donor's set of overlays
-
 KOKKOS_INLINE_FUNCTION int slotOf(Mesh const &mesh, int cell, int neighbour)
 {
   int const begin = mesh.cell_neighbour.offset(cell);

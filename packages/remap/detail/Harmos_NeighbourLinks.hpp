@@ -9,6 +9,8 @@ namespace Harmos
 namespace RemapDetail
 {
 
+constexpr int most_slots = 64; // of a cell: bits of a donor's set of overlays
+
 /// What stage 2 asks of a mesh again and again: how a cell and its vertex neighbours see each other.
 ///
 /// The slots of a cell are itself (0) and its vertex neighbours in the order of their row (1, 2, ...).

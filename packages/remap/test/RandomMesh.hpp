@@ -29,6 +29,30 @@ double gaussAverage(Quadrilateral const &q, Function const &f)
   return sum / volume;
 }
 
+/// In [-1, 1), by the node's global number: the same on any number of ranks.
+inline double noise(long long global, int d)
+{
+  std::mt19937 random(static_cast<unsigned>(2 * global + d));
+  return std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+}
+
+/// A mesh with inner nodes shifted at random, and those of walls along them.
+inline Mesh shiftedMesh(Mesh const &mesh, double amount)
+{
+  Mesh target = mesh;
+  target.node_position = View<double *[2]>("target", mesh.num_nodes);
+  separateGeometry(target);
+  for (int node = 0; node < mesh.num_nodes; ++node)
+    for (int d = 0; d < 2; ++d)
+    {
+      double const x = mesh.node_position(node, d);
+      bool const wall = x == 0.0 || x == 1.0;
+      target.node_position(node, d) = wall ? x : x + amount * noise(mesh.node_global(node), d);
+    }
+  updateGeometry(target);
+  return target;
+}
+
 /// One material's moved mesh, at time step one.
 inline Quadrilateral movedCell(Scene const &scene, int cell)
 {

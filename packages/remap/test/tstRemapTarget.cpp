@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RemapScene.hpp"
+#include "RandomMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,30 +17,6 @@ Vector2 slip(int material, Vector2 const &x)
 
 std::vector<std::vector<Layer>> const layouts = {
     {rest(0)}, {disc(0, {0.45, 0.5}, 0.3)}, {disc(0, {0.45, 0.5}, 0.27), halfPlane(2, {0.5, 0.5}, 0.3), rest(1)}};
-
-/// In [-1, 1), by the node's global number: the same on any number of ranks.
-double noise(long long global, int d)
-{
-  std::mt19937 random(static_cast<unsigned>(2 * global + d));
-  return std::uniform_real_distribution<double>(-1.0, 1.0)(random);
-}
-
-/// The scene's mesh with inner nodes shifted at random, and those of walls along them.
-Mesh shiftedMesh(Scene const &scene, double amount)
-{
-  Mesh target = scene.mesh;
-  target.node_position = View<double *[2]>("target", scene.mesh.num_nodes);
-  separateGeometry(target);
-  for (int node = 0; node < scene.mesh.num_nodes; ++node)
-    for (int d = 0; d < 2; ++d)
-    {
-      double const x = scene.mesh.node_position(node, d);
-      bool const wall = x == 0.0 || x == 1.0;
-      target.node_position(node, d) = wall ? x : x + amount * noise(scene.mesh.node_global(node), d);
-    }
-  updateGeometry(target);
-  return target;
-}
 
 RemapResult remapTo(Scene &scene, Mesh const &target, RemapWork &work)
 {
@@ -77,7 +53,7 @@ TEST(Target, thatIsTheStartMesh_givesTheBitsOfThePlainRemap)
     {
       Scene scene = makeScene(layers, intersect);
       RemapResult const plain = scene.remapped();
-      EXPECT_EQ(differences(scene, remapTo(scene, shiftedMesh(scene, 0.0)), plain), 0);
+      EXPECT_EQ(differences(scene, remapTo(scene, shiftedMesh(scene.mesh, 0.0)), plain), 0);
     }
 }
 
@@ -87,7 +63,7 @@ TEST(Target, ofRandomNodes_keepsMassMomentumAndEnergyOfEveryMaterial)
     for (bool intersect : {false, true})
     {
       Scene scene = makeScene(layers, intersect);
-      Mesh const target = shiftedMesh(scene, 0.009);
+      Mesh const target = shiftedMesh(scene.mesh, 0.009);
       RemapResult const result = remapTo(scene, target);
       EXPECT_EQ(scene.report.failures, 0);
       for (int material : {0, 1, 2})
@@ -113,7 +89,7 @@ TEST(Target, thatMovesWithTheMaterial_leavesTheCellsAsTheyAre)
     {
       Scene scene = makeScene(layers, intersect);
       scene.move([](int, Vector2 const &x) { return slip(0, x); });
-      Mesh target = shiftedMesh(scene, 0.0);
+      Mesh target = shiftedMesh(scene.mesh, 0.0);
       for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
         for (int d = 0; d < 2; ++d)
           target.node_position(scene.dof_nodes.node(dof), d) =
@@ -146,7 +122,7 @@ TEST(Target, ofRandomNodes_uniformStateStaysUniformAndFillsTheCells)
     auto const one = [](int, Vector2 const &) { return 1.0; };
     scene.paint({disc(0, {0.45, 0.5}, 0.3), rest(1)}, one, one);
     scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
-    Mesh const target = shiftedMesh(scene, 0.009);
+    Mesh const target = shiftedMesh(scene.mesh, 0.009);
     RemapResult const result = remapTo(scene, target);
     for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
     {
@@ -161,7 +137,7 @@ TEST(Target, ofRandomNodes_uniformStateStaysUniformAndFillsTheCells)
 TEST(Target, keptWork_servesMovingMeshesAndTheStartMeshInTurn)
 {
   Scene scene = makeScene(layouts[2], false);
-  Mesh const target = shiftedMesh(scene, 0.009);
+  Mesh const target = shiftedMesh(scene.mesh, 0.009);
   RemapWork work;
   RemapReport report;
   for (int i = 0; i < 2; ++i)
@@ -177,14 +153,14 @@ TEST(Target, keptWork_servesMovingMeshesAndTheStartMeshInTurn)
 TEST(Target, withANodeOffItsWall_isRefused)
 {
   Scene scene = makeScene(layouts[0], false);
-  Mesh const target = shiftedMesh(scene, 0.0);
+  Mesh const target = shiftedMesh(scene.mesh, 0.0);
   target.node_position(3, 1) = 0.01;
   EXPECT_THROW(remapTo(scene, target), std::runtime_error);
   Scene open = makeScene(layouts[0], false);
   Boundary outflow;
   outflow.kind = BoundaryKind::Outflow;
   open.setBoundaries(std::vector<Boundary>(4, outflow));
-  Mesh const sliding = shiftedMesh(open, 0.0);
+  Mesh const sliding = shiftedMesh(open.mesh, 0.0);
   sliding.node_position(3, 0) += 0.001;
   EXPECT_THROW(remapTo(open, sliding), std::runtime_error);
 }
@@ -194,7 +170,7 @@ TEST(Target, onPartOfTheMesh_givesTheBitsOfTheWhole)
   for (auto const &layers : layouts)
   {
     Scene whole = makeScene(layers, false);
-    RemapResult const all = remapTo(whole, shiftedMesh(whole, 0.009));
+    RemapResult const all = remapTo(whole, shiftedMesh(whole.mesh, 0.009));
     std::vector<int> owner(24 * 20);
     for (int cell = 0; cell < 24 * 20; ++cell)
       owner[cell] = cell % 24 < 11 + (cell / 24) % 3 ? 0 : 1;
@@ -203,7 +179,7 @@ TEST(Target, onPartOfTheMesh_givesTheBitsOfTheWhole)
     part.distribute(owner, 5);
     part.paint(layers, wave, wave);
     part.move(slip);
-    EXPECT_EQ(differences(part, remapTo(part, shiftedMesh(part, 0.009)), all), 0);
+    EXPECT_EQ(differences(part, remapTo(part, shiftedMesh(part.mesh, 0.009)), all), 0);
   }
 }
 

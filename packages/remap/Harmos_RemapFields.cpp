@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_RemapFields.hpp>
+
+#include <detail/Harmos_FieldOverlays.hpp>
+
+#include <stdexcept>
+
+namespace Harmos
+{
+
+namespace
+{
+
+using namespace RemapDetail;
+
+void checkOptions(Mesh const &mesh, CellFields const &fields, CellFields const &remapped, RemapOptions const &options)
+{
+  if (mesh.geometry != Geometry::Planar)
+    throw std::runtime_error("remapFields: the mesh is axisymmetric; cell fields are planar");
+  if (options.order < 1 || options.order > 2)
+    throw std::runtime_error("remapFields: order " + std::to_string(options.order) + " is none of 1, 2");
+  if (options.limiter == RemapLimiter::VanLeer)
+    throw std::runtime_error("remapFields: limiter van leer; cell fields take range, range inside or none");
+  if (fields.value.data() == remapped.value.data() || fields.value.extent(0) != remapped.value.extent(0) ||
+      fields.value.extent(1) != remapped.value.extent(1))
+    throw std::runtime_error("remapFields: the new averages need an array of their own, of the same shape");
+}
+
+} // namespace
+
+/// Arrays, and the links of a mesh's connectivity.
+struct FieldScratch
+{
+  View<int *> neighbours; // of the mesh that the links belong to
+  NeighbourLinks links;
+  View<double *[8]> corner;
+  View<double *[4]> shape;
+  View<double *> overlay;
+};
+
+int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields const &fields, CellFields const &remapped,
+                RemapOptions const &options, FieldWork &work)
+{
+  checkOptions(mesh, fields, remapped, options);
+  ScopedRegion const region("Harmos::remapFields");
+  if (!work.scratch)
+    work.scratch = std::make_shared<FieldScratch>();
+  FieldScratch &kept = *work.scratch;
+  if (kept.neighbours.data() != mesh.cell_neighbour.item.data())
+  {
+    kept.links = linkNeighbours(mesh);
+    kept.neighbours = mesh.cell_neighbour.item;
+  }
+  FieldStage stage;
+  stage.mesh = mesh;
+  stage.start = start;
+  stage.links = kept.links;
+  stage.order = options.order;
+  stage.limiter = options.limiter;
+  stage.fields = fields;
+  stage.remapped = remapped;
+  stage.columns = 1 + static_cast<int>(fields.value.extent(1));
+  // Columns of the overlays are no power of two apart, or they would fall on the same lines of the cache.
+  stage.stride = numPacks(mesh.num_cells) * pack_width + 24;
+  grow(kept.corner, "targetCorner", mesh.num_cells);
+  grow(kept.shape, "startShape", mesh.num_cells);
+  grow(kept.overlay, "fieldOverlay", static_cast<std::size_t>(stage.stride) * stage.columns * kept.links.slots);
+  stage.corner = kept.corner;
+  stage.shape = kept.shape;
+  stage.overlay = kept.overlay;
+  return intersectFields(stage);
+}
+
+} // namespace Harmos

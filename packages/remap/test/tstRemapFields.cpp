@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RandomMesh.hpp"
+
+#include <Harmos_RemapFields.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+using namespace Harmos::Test;
+
+namespace
+{
+
+using Field = std::function<double(Vector2 const &)>;
+
+double slope(Vector2 const &x)
+{
+  return 2.0 + 3.0 * x[0] - 1.5 * x[1];
+}
+
+double sine(Vector2 const &x)
+{
+  return 2.0 + std::sin(2.0 * Math::pi * x[0]) * std::sin(2.0 * Math::pi * x[1]);
+}
+
+/// The regular mesh of n x n cells.
+Mesh regularMesh(int n)
+{
+  return Scene(n, n, 0.0, twoLaws()).mesh;
+}
+
+/// The mesh of n x n cells with nodes shifted at random by up to `amount` cells, others than shiftedMesh's.
+Mesh startMesh(int n, double amount)
+{
+  Mesh const regular = regularMesh(n);
+  Mesh mesh = shiftedMesh(regular, amount / n);
+  for (int node = 0; node < mesh.num_nodes; ++node)
+    for (int d = 0; d < 2; ++d)
+      mesh.node_position(node, d) = 2.0 * regular.node_position(node, d) - mesh.node_position(node, d);
+  updateGeometry(mesh);
+  return mesh;
+}
+
+CellFields averages(Mesh const &mesh, std::vector<Field> const &fields)
+{
+  CellFields out{View<double **>("fields", mesh.num_cells, fields.size())};
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+    for (std::size_t f = 0; f < fields.size(); ++f)
+      out.value(cell, f) = gaussAverage(cellQuadrilateral(mesh, cell), fields[f]);
+  return out;
+}
+
+CellFields noiseIn(Mesh const &mesh, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> value(1.0, 2.0);
+  CellFields out{View<double **>("fields", mesh.num_cells, 1)};
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+    out.value(cell, 0) = value(random);
+  return out;
+}
+
+double total(Mesh const &mesh, CellFields const &fields, int f)
+{
+  double sum = 0.0;
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+    sum += mesh.cell_area(cell) * fields.value(cell, f);
+  return sum;
+}
+
+/// Area-weighted mean of the absolute difference.
+double difference(Mesh const &mesh, CellFields const &a, CellFields const &b, int f)
+{
+  double sum = 0.0;
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+    sum += mesh.cell_area(cell) * std::fabs(a.value(cell, f) - b.value(cell, f));
+  return sum;
+}
+
+CellFields remapped(Mesh const &from, Mesh const &to, CellFields const &fields, RemapOptions const &options,
+                    int failures = 0)
+{
+  CellFields out{View<double **>("remapped", to.num_cells, fields.value.extent(1))};
+  FieldWork work;
+  EXPECT_EQ(remapFields(to, from.node_position, fields, out, options, work), failures);
+  return out;
+}
+
+RemapOptions optionsOf(int order, RemapLimiter limiter)
+{
+  RemapOptions options;
+  options.order = order;
+  options.limiter = limiter;
+  return options;
+}
+
+} // namespace
+
+TEST(Fields, constantAndLinearOnesOnRandomMeshes_areExact)
+{
+  Mesh const from = startMesh(20, 0.3), to = shiftedMesh(regularMesh(20), 0.3 / 20);
+  std::vector<Field> const fields = {[](Vector2 const &) { return 7.0; }, slope};
+  CellFields const exact = averages(to, fields);
+  CellFields const constant = remapped(from, to, averages(from, fields), optionsOf(1, RemapLimiter::Range));
+  EXPECT_LT(difference(to, constant, exact, 0), 1e-14);
+  EXPECT_GT(difference(to, constant, exact, 1), 1e-3);
+  CellFields const linear = remapped(from, to, averages(from, fields), optionsOf(2, RemapLimiter::None));
+  EXPECT_LT(difference(to, linear, exact, 0), 1e-14);
+  EXPECT_LT(difference(to, linear, exact, 1), 1e-14);
+}
+
+TEST(Fields, randomOnesOnRandomMeshes_stayInRangeAndKeepTheirSum)
+{
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    Mesh const from = startMesh(16, 0.03 * seed), to = shiftedMesh(regularMesh(16), 0.03 * seed / 16);
+    CellFields const before = noiseIn(from, seed);
+    CellFields const after = remapped(from, to, before, optionsOf(2, RemapLimiter::Range));
+    CellFields const free = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
+    EXPECT_NEAR(total(to, after, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
+    EXPECT_NEAR(total(to, free, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
+    double beyond = 0.0;
+    for (int cell = 0; cell < to.num_cells; ++cell)
+    {
+      double low = before.value(cell, 0), high = low;
+      // the donors of a cell are its neighbours, and theirs bound them
+      for (int j = to.cell_neighbour.offset(cell); j < to.cell_neighbour.offset(cell + 1); ++j)
+      {
+        int const donor = to.cell_neighbour.item(j);
+        for (int i = to.cell_neighbour.offset(donor); i < to.cell_neighbour.offset(donor + 1); ++i)
+        {
+          low = std::fmin(low, before.value(to.cell_neighbour.item(i), 0));
+          high = std::fmax(high, before.value(to.cell_neighbour.item(i), 0));
+        }
+      }
+      EXPECT_GE(after.value(cell, 0), low - 1e-12);
+      EXPECT_LE(after.value(cell, 0), high + 1e-12);
+      beyond = std::fmax(beyond, std::fmax(low - free.value(cell, 0), free.value(cell, 0) - high));
+    }
+    EXPECT_GT(beyond, seed > 3 ? 1e-3 : -1.0);
+  }
+}
+
+TEST(Fields, smoothOnesOnRandomMeshes_areOfSecondOrder)
+{
+  double last = 0.0;
+  for (int n : {16, 32, 64})
+  {
+    Mesh const from = startMesh(n, 0.25), to = shiftedMesh(regularMesh(n), 0.25 / n);
+    CellFields const after = remapped(from, to, averages(from, {sine}), optionsOf(2, RemapLimiter::RangeInside));
+    double const error = difference(to, after, averages(to, {sine}), 0);
+    if (n > 16)
+    {
+      EXPECT_GT(std::log2(last / error), 1.9);
+    }
+    last = error;
+  }
+  EXPECT_LT(last, 1.2e-4);
+}
+
+TEST(Fields, andTheRemapOfTheCycle_agreeToRoundOff)
+{
+  int const n = 24;
+  Scene scene = regularToRandom(n, 0.25, sine);
+  scene.options.swept_faces = false;
+  scene.options.limiter = RemapLimiter::None;
+  RemapResult const whole = scene.remapped();
+  View<double *[2]> const start("start", scene.mesh.num_nodes);
+  CellFields const before{View<double **>("before", scene.mesh.num_cells, 1)};
+  CellFields const after{View<double **>("after", scene.mesh.num_cells, 1)};
+  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
+  {
+    Quadrilateral const moved = movedCell(scene, cell);
+    before.value(cell, 0) = scene.state.record(cell, Mass) / area(moved);
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < 2; ++d)
+        start(scene.mesh.cell_node(cell, k), d) = moved[k][d];
+  }
+  FieldWork work;
+  EXPECT_EQ(remapFields(scene.mesh, start, before, after, scene.options, work), 0);
+  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
+    EXPECT_NEAR(after.value(cell, 0), whole.state.record(cell, Mass) / scene.mesh.cell_area(cell), 1e-12);
+}
+
+TEST(Fields, oneByOneOrTogether_haveTheSameBits)
+{
+  Mesh const from = startMesh(15, 0.2), to = shiftedMesh(regularMesh(15), 0.2 / 15);
+  CellFields const together =
+      remapped(from, to, averages(from, {slope, sine, slope}), optionsOf(2, RemapLimiter::Range));
+  CellFields const alone = remapped(from, to, averages(from, {sine}), optionsOf(2, RemapLimiter::Range));
+  for (int cell = 0; cell < to.num_cells; ++cell)
+  {
+    EXPECT_EQ(together.value(cell, 1), alone.value(cell, 0));
+    EXPECT_EQ(together.value(cell, 0), together.value(cell, 2));
+  }
+}
+
+TEST(Fields, donorsThatAreBent_areCutExactly)
+{
+  // Every other inner node is drawn over the diagonal of a cell, whose concave rest has two teeth.
+  Mesh const to = regularMesh(8);
+  Mesh from = shiftedMesh(to, 0.0);
+  for (int node = 0; node < to.num_nodes; ++node)
+  {
+    double const i = std::round(8.0 * to.node_position(node, 0)), j = std::round(8.0 * to.node_position(node, 1));
+    if (i > 0.0 && i < 8.0 && j > 0.0 && j < 8.0 && std::fmod(i, 2.0) == 0.0 && std::fmod(j, 2.0) == 0.0)
+      for (int d = 0; d < 2; ++d)
+        from.node_position(node, d) += 0.55 / 8.0;
+  }
+  updateGeometry(from);
+  CellFields const before = averages(from, {slope});
+  CellFields const after = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
+  EXPECT_NEAR(total(to, after, 0), total(from, before, 0), 1e-14);
+  EXPECT_LT(difference(to, after, averages(to, {slope}), 0), 1e-14);
+}
+
+TEST(Fields, nodesThatLeaveTheCellsAround_areReported)
+{
+  Mesh const to = regularMesh(8);
+  Mesh const from = shiftedMesh(to, 0.0);
+  int const node = to.cell_node(27, 2);
+  from.node_position(node, 0) += 1.3 / 8.0;
+  CellFields const before = averages(to, {slope});
+  CellFields const after{View<double **>("after", to.num_cells, 1)};
+  FieldWork work;
+  EXPECT_GT(remapFields(to, from.node_position, before, after, optionsOf(1, RemapLimiter::Range), work), 0);
+}
+
+TEST(Fields, whatTheyCannotDo_isRefused)
+{
+  Mesh const mesh = regularMesh(4);
+  CellFields const a = averages(mesh, {slope}), b = averages(mesh, {slope});
+  FieldWork work;
+  auto const run = [&](int order, RemapLimiter limiter, CellFields const &out)
+  { remapFields(mesh, mesh.node_position, a, out, optionsOf(order, limiter), work); };
+  EXPECT_THROW(run(3, RemapLimiter::Range, b), std::runtime_error);
+  EXPECT_THROW(run(2, RemapLimiter::VanLeer, b), std::runtime_error);
+  EXPECT_THROW(run(2, RemapLimiter::Range, a), std::runtime_error);
+  EXPECT_NO_THROW(run(2, RemapLimiter::Range, b));
+}
