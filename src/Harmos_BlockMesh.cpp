@@ -130,6 +130,7 @@ public:
         auto const found = side_.find(std::minmax(q.node[k], q.node[(k + 1) % 4]));
         boundary[k] = found == side_.end() ? -1 : boundaryOf(deck_, found->second);
       }
+      checkAxis(cell, boundary, whole.mesh);
       whole.mesh.cell.push_back(cell);
       whole.mesh.face_boundary.push_back(boundary);
       whole.cell_body.push_back(body);
@@ -140,6 +141,18 @@ public:
   }
 
 private:
+  /// What lies on the axis must say so: free nodes would leave it.
+  void checkAxis(std::array<int, 4> const &cell, std::array<int, 4> const &boundary, HostMesh const &mesh) const
+  {
+    if (deck_.geometry == Geometry::Planar)
+      return;
+    double const near_axis = 1e-9 * (deck_.x.to - deck_.x.from);
+    for (int k = 0; k < 4; ++k)
+      if (mesh.node[cell[k]][0] < near_axis && mesh.node[cell[(k + 1) % 4]][0] < near_axis && boundary[k] != Left)
+        throw DeckError(deck_.mesh_file + ": an edge on the axis, at y = " + std::to_string(mesh.node[cell[k]][1]) +
+                        ", belongs to no physical curve left");
+  }
+
   int nodeOf(BodySpec const &spec, int number, HostMesh &mesh)
   {
     auto const found = node_.emplace(std::make_pair(spec.field, number), static_cast<int>(mesh.node.size()));

@@ -27,6 +27,7 @@ void catchInterrupts()
 {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
+  std::signal(SIGUSR1, onSignal); // mpiexec forwards it, and waits
 }
 
 bool interrupted()

@@ -5,7 +5,7 @@
 namespace Harmos
 {
 
-/// From now on SIGINT and SIGTERM only raise a flag; a second one ends the program at once.
+/// From now on SIGINT, SIGTERM and SIGUSR1 only raise a flag; a second one ends the program at once.
 void catchInterrupts();
 
 /// Whether a signal came in.

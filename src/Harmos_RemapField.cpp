@@ -63,7 +63,8 @@ View<double *> cellAverages(RemapField const &field, Mesh const &mesh)
         Vector2 const x = (N[0] * q[0] + N[1] * q[1]) + (N[2] * q[2] + N[3] * q[3]);
         Vector2 const along = (1.0 - point[j]) * (q[1] - q[0]) + point[j] * (q[2] - q[3]);
         Vector2 const up = (1.0 - point[i]) * (q[3] - q[0]) + point[i] * (q[2] - q[1]);
-        double const w = weight[i] * weight[j] * cross(along, up);
+        double const r = mesh.geometry == Geometry::Planar ? 1.0 : x[0];
+        double const w = r * weight[i] * weight[j] * cross(along, up);
         sum += w * fieldAt(field, x);
         volume += w;
       }

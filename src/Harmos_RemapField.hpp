@@ -8,8 +8,8 @@
 namespace Harmos
 {
 
-/// Cell averages of the field of `harmos remap`, all local cells: by 2 x 2 Gauss points for the sine, 16 x 16 for the
-/// shock.
+/// Cell averages of the field of `harmos remap`, all local cells, axisymmetric weighted by the radius: by 2 x 2 Gauss
+/// points for the sine, 16 x 16 for the shock.
 View<double *> cellAverages(RemapField const &field, Mesh const &mesh);
 
 } // namespace Harmos

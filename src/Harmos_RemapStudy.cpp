@@ -120,7 +120,7 @@ Study makeStudy(Mesh const &mesh, RemapDeck const &deck)
         if (cell == mesh.num_cells)
           return;
         pairs.cell(cell) = cell;
-        record(cell, Mass) = (density ? f(cell) : 1.0) * mesh.cell_area(cell);
+        record(cell, Mass) = (density ? f(cell) : 1.0) * mesh.cell_volume(cell);
         record(cell, VolumeFraction) = 1.0;
         record(cell, SpecificVolume) = 1.0;
         record(cell, InternalEnergy) = density ? 1.0 : f(cell);
@@ -145,10 +145,10 @@ View<double *> valuesOf(Study const &s, bool density)
 {
   View<double *> const value("Harmos::values", s.mesh.num_cells);
   auto const record = s.state.record;
-  auto const area = s.mesh.cell_area;
+  auto const volume = s.mesh.cell_volume;
   Kokkos::parallel_for(
       "Harmos::valuesOf", RangePolicy(0, s.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        value(cell) = density ? record(cell, Mass) / area(cell) : record(cell, InternalEnergy);
+        value(cell) = density ? record(cell, Mass) / volume(cell) : record(cell, InternalEnergy);
       });
   return value;
 }
@@ -165,7 +165,7 @@ Sums sumsOf(Mesh const &mesh, View<double *> const &value, View<double *> const 
   Kokkos::parallel_reduce(
       "Harmos::sumsOf", RangePolicy(0, mesh.num_cells),
       KOKKOS_LAMBDA(int cell, double &total, double &l1, double &l2) {
-        double const v = mesh.cell_depth(cell) == 0 ? mesh.cell_area(cell) : 0.0;
+        double const v = mesh.cell_depth(cell) == 0 ? mesh.cell_volume(cell) : 0.0;
         double const difference = value(cell) - exact(cell);
         total += v * value(cell);
         l1 += v * Math::fabs(difference);
@@ -204,14 +204,19 @@ Swirl swirlOf(Study const &s, Exchange const &exchange)
   return {{sums[0], sums[1]}, {sums[5], sums[6]}, sums[2], sums[3], sums[4]};
 }
 
-void noteSwirl(Swirl const &before, Swirl const &now, StudyRow &row)
+/// Axisymmetric: the axial momentum alone is conserved, and there is no angular momentum.
+void noteSwirl(Swirl const &before, Swirl const &now, Geometry geometry, StudyRow &row)
 {
-  Vector2 const change = (now.momentum - before.momentum) - now.wall_impulse;
+  Vector2 change = (now.momentum - before.momentum) - now.wall_impulse;
+  bool const planar = geometry == Geometry::Planar;
+  if (!planar)
+    change[0] = 0.0;
   // sum m |v| <= root of (2 E_kin m)
   double const scale = std::sqrt(2.0 * before.kinetic_energy * before.mass);
   row.momentum = std::fmax(row.momentum, norm(change) / scale);
-  row.angular_momentum =
-      std::fmax(row.angular_momentum, std::fabs(now.angular_momentum / before.angular_momentum - 1.0));
+  if (planar)
+    row.angular_momentum =
+        std::fmax(row.angular_momentum, std::fabs(now.angular_momentum / before.angular_momentum - 1.0));
   row.kinetic_energy = now.kinetic_energy / before.kinetic_energy;
 }
 
@@ -279,11 +284,11 @@ void stepByRemap(Study &s, RemapDeck const &deck, Exchange const &exchange, Stud
 void setValues(Study const &s, bool density, View<double *> const &value)
 {
   auto const record = s.state.record;
-  auto const area = s.next.cell_area;
+  auto const volume = s.next.cell_volume;
   Kokkos::parallel_for(
       "Harmos::setValues", RangePolicy(0, s.next.num_cells), KOKKOS_LAMBDA(int cell) {
         if (density)
-          record(cell, Mass) = value(cell) * area(cell);
+          record(cell, Mass) = value(cell) * volume(cell);
         else
           record(cell, InternalEnergy) = value(cell);
       });
@@ -336,8 +341,9 @@ StudyRow runOne(RemapDeck const &deck, int cells, Teuchos::RCP<Teuchos::Comm<int
 {
   std::vector<double> const lines = gradedCoordinates(0.0, 1.0, cells, 1.0);
   HostMesh const whole = rectilinearMesh(lines, lines);
-  Mesh const mesh = buildLocalMesh(whole, partitionCells(whole, comm->getSize()), comm->getRank(),
-                                   comm->getSize() > 1 ? halo_layers : 0);
+  Mesh mesh = buildLocalMesh(whole, partitionCells(whole, comm->getSize()), comm->getRank(),
+                             comm->getSize() > 1 ? halo_layers : 0);
+  setGeometry(mesh, deck.geometry);
   TpetraExchange const exchange(comm, mesh);
   Study s = makeStudy(mesh, deck);
   StudyRow row;
@@ -360,7 +366,7 @@ StudyRow runOne(RemapDeck const &deck, int cells, Teuchos::RCP<Teuchos::Comm<int
       stepByComparator(s, deck, row);
     std::swap(s.mesh, s.next);
     if (whole_records)
-      noteSwirl(swirl, swirlOf(s, exchange), row);
+      noteSwirl(swirl, swirlOf(s, exchange), deck.geometry, row);
     Sums const now = sumsOf(s.mesh, valuesOf(s, deck.field.density), start, exchange);
     row.conservation = std::max(row.conservation, std::fabs(now.total - before.total) / std::fabs(before.total));
     row.below = std::max(row.below, before.low - now.low);

@@ -51,6 +51,9 @@ struct Run
 /// The words of the lowest rank that has any, on all ranks; empty where none has. Collective.
 std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause);
 
+/// A line on the terminal and in the summary; of the latter there are at most a hundred.
+void warn(Run &run, std::string const &text);
+
 /// Mesh, scene, state and ledger from the deck or from a checkpoint. \throw DeckError, on all ranks alike, before any
 /// file is touched.
 void setUp(Run &run);

@@ -3,6 +3,7 @@
 
 #include "Harmos_PrescribedCycle.hpp"
 
+#include <Harmos_DeckDifference.hpp>
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Partition.hpp>
@@ -148,6 +149,29 @@ void restoreBonds(Run &run, std::vector<double> const &tracers, std::vector<doub
                        values[2 * i + 1] != 0.0});
 }
 
+bool startsWith(std::string const &text, std::string const &start)
+{
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// A restart keeps the mesh and the bodies; what else of the physics has changed it names in a warning.
+void compareDecks(Run &run, std::string const &before)
+{
+  std::string changed;
+  for (std::string const &path : changedKeys(before, run.deck.yaml))
+  {
+    auto const begins = [&](char const *start) { return startsWith(path, start); };
+    if (begins("run/") || begins("output/") || begins("probes/") || path == "title")
+      continue;
+    if (path == "geometry" || begins("bodies/") || (begins("mesh/") && !begins("mesh/smoother")))
+      throw std::runtime_error("it was written with another value of " + path +
+                               " than the deck's; a restart keeps mesh and bodies");
+    changed += (changed.empty() ? "" : ", ") + path;
+  }
+  if (!changed.empty())
+    warn(run, "since the checkpoint the deck has changed in " + changed);
+}
+
 /// The state from a checkpoint: the same bits that the interrupted run had.
 void restoreState(Run &run)
 {
@@ -156,6 +180,7 @@ void restoreState(Run &run)
     throw std::runtime_error("its materials are not those of the deck");
   if (scalars.kinematics != run.deck.kinematics)
     throw std::runtime_error("its kinematics is not that of the deck");
+  compareDecks(run, scalars.deck);
   CheckpointState read = readCheckpoint(MPI_COMM_WORLD, run.options.restart, run.scene.mesh);
   CycleState &s = run.state;
   s.pairs = read.pairs;
@@ -194,8 +219,9 @@ void startLedger(Run &run)
   l.momentum0_y = totals.momentum_y;
   l.angular_momentum0 = totals.angular_momentum;
   l.noteErrors(0.0, 0.0, 0.0, l.energy0, totals.speed_momentum);
-  if (!(totals.mass > 0.0) && run.state.bodies.empty())
-    throw DeckError("bodies: no body has any mass inside of the mesh");
+  for (std::size_t m = 0; m < run.deck.fields.size(); ++m)
+    if (run.deck.fields[m].rigid_body < 0 && !(totals.material[m].mass > 0.0))
+      throw DeckError("bodies/" + run.deck.fields[m].name + ": nothing of it lies inside of the mesh");
 }
 
 /// A prescribed field that carries a body through a side of the mesh at once. \throw DeckError on all ranks alike.
@@ -232,6 +258,14 @@ void placeTracers(Run &run)
 
 } // namespace
 
+void warn(Run &run, std::string const &text)
+{
+  std::size_t const most = 100;
+  if (run.warnings.size() < most)
+    run.warnings.push_back(text);
+  run.progress.message("warning: " + text);
+}
+
 std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause)
 {
   int mine = cause.empty() ? comm.getSize() : comm.getRank(), first = mine;
@@ -249,17 +283,18 @@ std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause)
 void setUp(Run &run)
 {
   bool const fresh = run.options.restart.empty();
-  std::string cause;
+  std::string cause, part;
   try
   {
     Mesh const mesh = makeLocalMesh(run);
     run.scene = makeScene(run.deck, run.whole, mesh, *run.exchange);
+    part = "bodies: ";
     if (fresh)
       run.state = makeInitialState(run.deck, run.whole, run.scene);
   }
   catch (std::exception const &error)
   {
-    cause = error.what();
+    cause = part + error.what();
   }
   cause = firstCause(*run.comm, cause);
   if (!cause.empty())

@@ -19,14 +19,6 @@ namespace Harmos
 namespace
 {
 
-void warn(Run &run, std::string const &text)
-{
-  std::size_t const most = 100;
-  if (run.warnings.size() < most)
-    run.warnings.push_back(text);
-  run.progress.message("warning: " + text);
-}
-
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
@@ -94,7 +86,10 @@ void failByTimeStep(Run const &run)
   bool const mine = limit.cell >= 0 && limit.dt == run.exchange->min(limit.dt);
   char text[80];
   std::snprintf(text, sizeof text, "cycle %lld: the time step %.3e s is too small", run.state.cycle, run.state.dt);
-  throwTogether(run, mine ? std::string(text) + ": set by " + placeOf(run, limit.cell, limit.material) : "");
+  bool const by_deck = run.state.dt >= run.scene.max_dt;
+  throwTogether(run, by_deck ? std::string(text) + ": set by run/max_dt"
+                     : mine  ? std::string(text) + ": set by " + placeOf(run, limit.cell, limit.material)
+                             : "");
   throw RunFailure(text);
 }
 
@@ -293,6 +288,8 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
   setUp(run);
   claimDirectory(run);
   RunOutput output(deck, options, comm, run.start);
+  if (run.start.restarted && finished(run))
+    warn(run, "nothing is left to do: the checkpoint has reached run/end_time or run/max_cycles");
   try
   {
     ExitStatus const status = loop(run, output);

@@ -9,6 +9,7 @@
 
 #include <Tpetra_Core.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -136,7 +137,11 @@ int dispatch(Arguments const &arguments, Teuchos::RCP<Teuchos::Comm<int> const> 
 
 int main(int argc, char **argv)
 {
-  Tpetra::ScopeGuard scope(&argc, &argv);
+  // Kokkos would answer --help with its own.
+  int none = 1;
+  bool const asks =
+      std::any_of(argv, argv + argc, [](std::string const &word) { return word == "--help" || word == "-h"; });
+  Tpetra::ScopeGuard scope(asks ? &none : &argc, &argv);
   auto const comm = Tpetra::getDefaultComm();
   try
   {

@@ -26,7 +26,8 @@ struct PairInteraction
 /// How the multipliers are found.
 enum class MultiplierMethod : int
 {
-  ConjugateGradients, // with projections (doc/decisions/0004)
+  ProjectedNewton,    // with a factor of the assembled matrix (doc/decisions/0010)
+  ConjugateGradients, // with projections, without a matrix (doc/decisions/0004)
   RowSums             // p <- bounds(p - r / D)
 };
 
@@ -54,7 +55,7 @@ struct ConstraintOptions
   Placement placement = Placement::Midpoint;
   double penalty = 1.0;     // Penalty, Nitsche: traction over impedance times velocity
   View<double *> impedance; // materials: density times longitudinal wave speed [kg/(m^2 s)], 0: rigid
-  MultiplierMethod solver = MultiplierMethod::ConjugateGradients;
+  MultiplierMethod solver = MultiplierMethod::ProjectedNewton;
   View<PairInteraction **> interaction; // (materials, materials), symmetric
   double tolerance = 1e-8;              // of max(largest predicted |G v|, 1e-6 speed_scale)
   int max_iterations = 1000;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactOperator.hpp>
 #include <Harmos_MultiplierSolver.hpp>
+#include <Harmos_ProjectedNewton.hpp>
 #include <Harmos_RowSums.hpp>
 
 namespace Harmos
@@ -262,9 +263,47 @@ public:
     }
   }
 
+  /// Projected Newton steps on the assembled problem; judged by the operator without a matrix.
+  void byProjectedNewton(ContactRows const &rows)
+  {
+    if (residualFits())
+      return;
+    DualProblem const problem = assembleDualProblem(s_, rows, exchange_);
+    DualSolution const dual = projectedNewton(problem, 0.9 * bound_, max_iterations_);
+    solution.iterations = dual.iterations;
+    setImpulses(problem, dual.x);
+    residualFits();
+  }
+
   MultiplierSolution solution;
 
 private:
+  /// Impulses of this rank's rows, and their bounds across n.
+  void setImpulses(DualProblem const &problem, std::vector<double> const &x)
+  {
+    auto const p = Kokkos::create_mirror_view(c_.p);
+    auto const reach = Kokkos::create_mirror_view(c_.reach);
+    for (int row = 0; row < s_.num_rows; ++row)
+    {
+      int const along = problem.first[row], across = along + 1;
+      if (along < 0)
+        continue;
+      p(row, 0) = x[along] / problem.root[along];
+      if (problem.tied[along])
+        p(row, 1) = x[across] / problem.root[across];
+      else if (across < problem.size() && problem.normal_of[across] == along)
+      {
+        double const bound = problem.friction[across] * x[along];
+        reach(row) = bound / problem.root[across];
+        p(row, 1) = x[across] >= bound    ? reach(row)
+                    : x[across] <= -bound ? -reach(row)
+                                          : x[across] / problem.root[across];
+      }
+    }
+    Kokkos::deep_copy(c_.p, p);
+    Kokkos::deep_copy(c_.reach, reach);
+  }
+
   double violation() const { return contact_.violation(c_.p, c_.r, c_.reach); }
 
   /// Compute the residual afresh and judge it.
@@ -339,6 +378,8 @@ MultiplierSolution solveMultipliers(ContactSystem const &system, ContactRows con
   Solve solve(system, rows, dt, options, exchange);
   if (options.solver == MultiplierMethod::RowSums)
     solve.byRowSums();
+  else if (options.solver == MultiplierMethod::ProjectedNewton)
+    solve.byProjectedNewton(rows);
   else
     solve.byConjugateGradients();
   return solve.solution;

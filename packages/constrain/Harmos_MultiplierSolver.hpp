@@ -20,6 +20,8 @@ struct MultiplierSolution
 /// \brief Solve r = b + G M^-1 P G^T p >= 0, p >= 0, p r = 0 (tied rows: r = 0, p of any sign; across n with friction:
 /// |p_t| <= mu p, r_t = 0 inside of the bounds and against p_t at them).
 ///
+/// MultiplierMethod::ProjectedNewton: on the assembled problem of all ranks (projectedNewton); judged here.
+///
 /// Friction by fixed point: the bounds across n are held while the convex problem of all impulses is solved, then set
 /// anew, until normal and tangential impulses fit together; the residual is judged with the new bounds.
 ///

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DeckContact.hpp>
 
+#include <algorithm>
+
 namespace Harmos
 {
 
@@ -34,10 +36,12 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
   }
   if (is_explicit)
     deck.constraint.penalty = list.get<double>("penalty");
-  if (list.get<std::string>("solver") == "row sums")
-    deck.constraint.solver = MultiplierMethod::RowSums;
-  check.require(!is_explicit || deck.constraint.solver == MultiplierMethod::ConjugateGradients,
-                "numerics/constraint/solver", "\"row sums\" has nothing to solve with method " + method);
+  std::string const solver = list.get<std::string>("solver");
+  deck.constraint.solver = solver == "row sums"              ? MultiplierMethod::RowSums
+                           : solver == "conjugate gradients" ? MultiplierMethod::ConjugateGradients
+                                                             : MultiplierMethod::ProjectedNewton;
+  check.require(!is_explicit || deck.constraint.solver == MultiplierMethod::ProjectedNewton,
+                "numerics/constraint/solver", "\"" + solver + "\" has nothing to solve with method " + method);
   for (BodySpec const &body : deck.bodies)
     check.require(!is_explicit || body.motion != RigidMotion::Free, path,
                   "\"" + method + "\" takes its stiffness from deformable bodies, and " + body.name +
@@ -82,6 +86,7 @@ void convertInteractions(DeckChecker const &check, ParameterList const &list, De
     return law;
   };
   deck.interaction.assign(static_cast<std::size_t>(n) * n, read(list, "default", "interactions/default"));
+  std::vector<std::string> named(static_cast<std::size_t>(n) * n); // the entry that names a pair
   for (auto i = list.begin(); i != list.end(); ++i)
   {
     if (!list.entry(i).isList())
@@ -96,6 +101,9 @@ void convertInteractions(DeckChecker const &check, ParameterList const &list, De
       field[k] = deck.bodies[requireIndex(check, deck.bodies, name, keyPath(path, key), "body")].field;
     }
     check.require(field[0] != field[1], path, "both bodies share one velocity field");
+    int const pair = std::min(field[0], field[1]) * n + std::max(field[0], field[1]);
+    check.require(named[pair].empty(), path, "the pair stands in interactions/" + named[pair] + " already");
+    named[pair] = list.name(i);
     PairInteraction const law = read(item, "type", keyPath(path, "type"));
     deck.interaction[field[0] * n + field[1]] = law;
     deck.interaction[field[1] * n + field[0]] = law;

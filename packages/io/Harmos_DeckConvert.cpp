@@ -260,8 +260,8 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.remap.hessian = by_contour ? RemapHessian::Contour : RemapHessian::LeastSquares;
   check.require(!by_contour || deck.remap.order == 3, "numerics/remap/hessian",
                 "\"contour\" is for the third order; expected: numerics/remap/order 3");
-  check.require(deck.remap.order < 3 || !deck.remap.swept_faces, "numerics/remap/order",
-                "3 is by intersection alone; expected: numerics/remap/swept_faces false");
+  check.require(!by_contour || !deck.remap.swept_faces, "numerics/remap/hessian",
+                "\"contour\" is by intersection alone; expected: numerics/remap/swept_faces false");
   deck.remap.merge_below = remap.get<double>("merge_below");
   deck.remap.close_void_below = remap.get<double>("close_void_below");
   deck.remap.return_kinetic_defect = remap.get<bool>("return_kinetic_defect");

@@ -183,9 +183,17 @@ void includeMaterials(ParameterList &deck, std::string const &file, TextReader c
       throw DeckError(where + ": expected: the name of a file");
     std::string const name = own.get<std::string>("from");
     std::string const path = name[0] == '/' ? name : folder + name;
-    ParameterList merged = parseYaml(read(path), path);
+    ParameterList merged;
+    try
+    {
+      merged = parseYaml(read(path), path);
+    }
+    catch (DeckError const &error)
+    {
+      throw DeckError(where + ": " + error.what());
+    }
     if (merged.name() != "material")
-      throw DeckError(path + ": outermost key is " + merged.name() + "; expected: material");
+      throw DeckError(where + ": " + path + ": outermost key is " + merged.name() + "; expected: material");
     bool const chooses = own.isParameter("eos") || own.isParameter("strength") || own.isParameter("damage");
     merged.setParameters(own);
     merged.remove("from");

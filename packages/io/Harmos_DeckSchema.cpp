@@ -226,9 +226,10 @@ void addNumerics(ParameterList &list)
         "traction over impedance times closing velocity");
   add(c.sublist("method = multipliers"), "placement", std::string("midpoint"),
       choice({"midpoint", "gauss points", "segment ends"}), "of the multipliers on a segment: one, or two");
-  add(c, "solver", std::string("conjugate gradients"), choice({"conjugate gradients", "row sums"}),
-      "of the multipliers. conjugate gradients: with projections; row sums: the plain iteration with the row sums of "
-      "the operator, for comparison");
+  add(c, "solver", std::string("projected newton"), choice({"projected newton", "conjugate gradients", "row sums"}),
+      "of the multipliers. projected newton: with a factor of the assembled matrix, on every rank the whole problem; "
+      "conjugate gradients: with projections, without a matrix; row sums: the plain iteration with the row sums of the "
+      "operator, for comparison");
   add(c, "tolerance", constraint.tolerance, number({0.0, 1e-2, true, false}), "relative residual of the multipliers");
   add(c, "max_iterations", constraint.max_iterations, integer({1.0, infinity, false, false}), "limit for one cycle");
   add(c, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),
@@ -239,7 +240,7 @@ void addNumerics(ParameterList &list)
   RemapOptions const remap;
   ParameterList &m = list.sublist("remap");
   add(m, "order", remap.order, integer(between(1.0, 3.0)),
-      "1: constant in a cell; 2: limited linear; 3: limited quadratic (without swept_faces)");
+      "1: constant in a cell; 2: limited linear; 3: limited quadratic (momentum of swept regions stays linear)");
   add(m, "hessian", std::string("least squares"), choice({"least squares", "contour"}),
       "order 3: a fit that is exact for quadratics, or contour integrals (Dukowicz and Kodis)");
   add(m, "limiter", std::string("range"), choice({"range", "range inside", "van leer", "none"}),

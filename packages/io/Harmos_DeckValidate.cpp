@@ -2,6 +2,7 @@
 #include <Harmos_DeckSchema.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace Harmos
 {
@@ -139,6 +140,18 @@ private:
     }
   }
 
+  /// Of the conditions under which a key would belong here, those that ask for the fewest changes.
+  static void keepNearest(std::vector<std::string> &conditions)
+  {
+    auto const changes = [](std::string const &text) { return std::count(text.begin(), text.end(), ','); };
+    long fewest = std::numeric_limits<long>::max();
+    for (std::string const &condition : conditions)
+      fewest = std::min<long>(fewest, changes(condition));
+    conditions.erase(std::remove_if(conditions.begin(), conditions.end(),
+                                    [&](std::string const &condition) { return changes(condition) > fewest; }),
+                     conditions.end());
+  }
+
   void refuseUnknown(Active const &active, ParameterList const &input, std::string const &path) const
   {
     for (auto i = input.begin(); i != input.end(); ++i)
@@ -151,6 +164,7 @@ private:
       for (auto const &[other, condition] : active.elsewhere)
         if (other == name)
           conditions.push_back(condition);
+      keepNearest(conditions);
       if (active.undecided && !conditions.empty())
         continue;
       if (active.any && conditions.empty() && input.entry(i).isList())

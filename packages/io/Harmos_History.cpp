@@ -15,8 +15,10 @@ std::string historyHeader(std::vector<std::string> const &material_names)
       "residual";
   for (auto const &name : material_names)
     for (char const *column : {"mass", "volume", "momentum_x", "momentum_y", "kinetic_energy", "internal_energy",
-                               "x_min", "x_max", "y_min", "y_max", "plastic_strain_max", "failed_mass"})
+                               "x_min", "x_max", "y_min", "y_max", "plastic_strain_max"})
       header += ',' + name + '.' + column;
+  for (auto const &name : material_names)
+    header += ',' + name + ".failed_mass";
   return header + ",returned_heat";
 }
 
@@ -62,8 +64,10 @@ void History::write(HistoryRow const &row)
   appendValue(line, row.residual);
   for (auto const &m : row.material)
     for (double value : {m.mass, m.volume, m.momentum_x, m.momentum_y, m.kinetic_energy, m.internal_energy, m.x_min,
-                         m.x_max, m.y_min, m.y_max, m.plastic_strain_max, m.failed_mass})
+                         m.x_max, m.y_min, m.y_max, m.plastic_strain_max})
       appendValue(line, value);
+  for (auto const &m : row.material)
+    appendValue(line, m.failed_mass);
   appendValue(line, row.returned_heat);
   file_->append(line + '\n');
 }

@@ -63,6 +63,9 @@ ParameterList remapSchema()
       "of the mesh of the unit square. tensor, smooth: there and back (Margolin & Shashkov 2003); random: inner nodes "
       "shifted at random, anew each step",
       {}, {"tensor", "smooth", "random"});
+  add(schema, "geometry", std::string("planar"), KeyType::Choice,
+      "axisymmetric: x is the radius, averages are weighted by it; schemes swept and intersection", {},
+      {"planar", "axisymmetric"});
   add(schema, "amplitude", 0.25, KeyType::Number, "random: largest shift of a coordinate, part of a cell",
       {0.0, 0.3, false, false});
   add(schema, "seed", 1, KeyType::Integer, "random: of the shifts", {0.0, 65535.0, false, false});
@@ -80,7 +83,8 @@ ParameterList remapSchema()
       {},
       {"swept", "intersection", "field intersection", "interpolation", "lumped projection", "consistent projection"});
   add(schema, "order", 2, KeyType::Integer,
-      "1: constant in a cell; 2: linear; 3: quadratic, scheme intersection alone. Limited in the remap of the cycle",
+      "1: constant in a cell; 2: linear; 3: quadratic, schemes swept and intersection. Limited in the remap of the "
+      "cycle",
       {1.0, 3.0, false, false});
   add(schema, "limiter", std::string("range"), KeyType::Choice,
       "swept and intersection of second order: as numerics/remap/limiter of a run; comparators have none", {},
@@ -105,6 +109,7 @@ RemapDeck readRemapDeckText(std::string const &text, std::string const &file, st
                                           : MotionKind::Random;
   deck.motion.amplitude = list.get<double>("amplitude");
   deck.motion.seed = list.get<int>("seed");
+  deck.geometry = list.get<std::string>("geometry") == "axisymmetric" ? Geometry::Axisymmetric : Geometry::Planar;
   deck.field.shock = list.get<std::string>("field") == "shock";
   deck.field.base = list.get<double>("base");
   deck.field.density = list.get<std::string>("carrier") == "density";
@@ -126,8 +131,13 @@ RemapDeck readRemapDeckText(std::string const &text, std::string const &file, st
   bool const compares = deck.compares();
   require(!deck.field.density || (!deck.field.shock && deck.field.base > 1.0), file, "carrier",
           "the field is not positive everywhere; expected: energy, or field sine with base above 1");
-  require(deck.order < 3 || deck.scheme == RemapScheme::Intersection, file, "order",
-          "3 is for scheme intersection alone");
+  require(deck.order < 3 || deck.scheme == RemapScheme::Intersection || deck.scheme == RemapScheme::Swept, file,
+          "order", "3 is for schemes swept and intersection");
+  require(deck.geometry == Geometry::Planar || deck.order < 3, file, "order",
+          "3 is planar with geometry axisymmetric; expected: 1 or 2");
+  require(deck.geometry == Geometry::Planar || deck.scheme == RemapScheme::Swept ||
+              deck.scheme == RemapScheme::Intersection,
+          file, "scheme", "it is planar with geometry axisymmetric; expected: swept or intersection");
   require(!compares || deck.limiter == RemapLimiter::Range, file, "limiter",
           "a comparator has none; expected: scheme swept or intersection");
   require(deck.scheme != RemapScheme::FieldIntersection || deck.limiter != RemapLimiter::VanLeer, file, "limiter",

@@ -35,6 +35,7 @@ struct RemapDeck
 {
   std::string title;
   MeshMotion motion;
+  Geometry geometry = Geometry::Planar; // axisymmetric: x the radius, the side x = 0 the axis
   RemapField field;
   RemapScheme scheme = RemapScheme::Swept;
   int order = 2;

@@ -149,8 +149,10 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
 
 /// Keep every dof node within 0.9 of the least altitude of the cells around: dt |v_half| <= 0.9 altitude.
 ///
-/// A light dof node (below options.light_node of a full one) that would not takes the mean velocity of the heaviest
-/// pair around it; that pair's other nodes take up the difference of momentum. A heavy one is reported by the largest
+/// A light dof node (below options.light_node of a full one) that would not, or that would within the step move by more
+/// than a quarter of that altitude against the mean of the heaviest pair around it, takes that mean velocity; the
+/// pair's other nodes take up the difference of momentum. (A splinter between two bodies that close would otherwise be
+/// flung out and heated without bound by nodes which are a whole cell apart.) A heavy one is reported by the largest
 /// ratio. Where nothing is wrong (nearly always) one pass over the dof nodes is all. Uses work.node_altitude, dof_mass,
 /// predicted.
 TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,

@@ -9,43 +9,10 @@ namespace
 {
 
 constexpr double largest_part_of_altitude = 0.9;
-
-/// Largest (dt |v| / (0.9 altitude))^2: of all local dof nodes, and of the owned ones. The outermost halo lacks forces,
-/// so that only the latter may steer; but every rank slows its copies of the others.
-struct Crossing
-{
-  double local = 0.0;
-  double owned = 0.0;
-
-  KOKKOS_INLINE_FUNCTION void join(Crossing const &other)
-  {
-    local = Math::max(local, other.local);
-    owned = Math::max(owned, other.owned);
-  }
-};
-
-Crossing largestCrossing(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, double dt, LagrangeWork const &work)
-{
-  auto const half = work.half;
-  auto const altitude = work.node_altitude;
-  auto const node_owned = mesh.node_owned;
-  Crossing result;
-  Kokkos::parallel_reduce(
-      "Harmos::lagrange::largestCrossing", RangePolicy(0, dof_nodes.num_dof_nodes),
-      KOKKOS_LAMBDA(int dof, Crossing &largest) {
-        int const node = dof_nodes.node(dof);
-        double const limit = largest_part_of_altitude * altitude(node);
-        double const travel2 = dt * dt * (half(dof, 0) * half(dof, 0) + half(dof, 1) * half(dof, 1));
-        if (travel2 <= largest.owned * (limit * limit))
-          return;
-        double const squared = travel2 / (limit * limit);
-        largest.local = Math::max(largest.local, squared);
-        if (node_owned(node))
-          largest.owned = Math::max(largest.owned, squared);
-      },
-      detail::JoinReducer<Crossing>(result));
-  return result;
-}
+/// dt |v - mean of the pair| of a light dof node over its altitude. What is caught between two heavy bodies is squeezed
+/// at their speed over its own thickness; in nodes a whole cell apart that is their speed times cell over thickness.
+constexpr double largest_light_strain = 0.25;
+constexpr double density_range = 10.0; // of what a first look takes for light
 
 /// Velocities that change, everything by gathering: no dof node writes another's.
 struct SlowLight
@@ -71,13 +38,42 @@ struct SlowLight
     return condition < 0 ? change : boundary.condition(condition).project(change);
   }
 
-  /// The heaviest pair around a dof node that is light and too fast (ties: the first); else -1.
-  KOKKOS_INLINE_FUNCTION int heaviestPair(int dof) const
+  /// A first look, which lets all light dof nodes of one material pass.
+  KOKKOS_INLINE_FUNCTION bool mayBeLight(int dof) const
+  {
+    int const own = dof_nodes.material(dof);
+    if (own < 0)
+      return false;
+    int const cell = mesh.node_cell.item(mesh.node_cell.offset(dof_nodes.node(dof))) / 4;
+    return dof_mass(dof) < density_range * light_node * materials(own).density0 * mesh.cell_volume(cell);
+  }
+
+  KOKKOS_INLINE_FUNCTION bool outruns(int dof, Vector2 const &velocity, double part) const
+  {
+    double const limit = part * altitude(dof_nodes.node(dof));
+    return dt * dt * dot(velocity, velocity) > limit * limit;
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector2 plainMean(int pair) const
+  {
+    Vector2 momentum{0.0, 0.0};
+    double mass = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = pairs.dof_node(pair, k);
+      momentum += dof_mass(dof) * velocity(dof);
+      mass += dof_mass(dof);
+    }
+    return (1.0 / mass) * momentum;
+  }
+
+  /// The heaviest of the pairs around a dof node that it belongs to and `counts`, or -1. Ties: the first; -2: a rigid
+  /// one.
+  template <class Counts>
+  KOKKOS_INLINE_FUNCTION int heaviestPair(int dof, Counts const &counts) const
   {
     int const node = dof_nodes.node(dof);
     int const own = dof_nodes.material(dof);
-    if (dt * norm(velocity(dof)) <= largest_part_of_altitude * altitude(node))
-      return -1;
     int best = -1;
     for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
     {
@@ -87,15 +83,41 @@ struct SlowLight
         if (own >= 0 && pairs.material(pair) != own)
           continue;
         if (materials(pairs.material(pair)).rigid_body >= 0)
-          return -1;
-        if (best < 0 || record(pair, Mass) > record(best, Mass))
+          return -2;
+        if (counts(pair) && (best < 0 || record(pair, Mass) > record(best, Mass)))
           best = pair;
       }
     }
+    return best;
+  }
+
+  /// The heaviest pair around a dof node that is light, else -1.
+  KOKKOS_INLINE_FUNCTION int pairOfLight(int dof) const
+  {
+    int const best = heaviestPair(dof, [](int) { return true; });
     if (best < 0)
       return -1;
     double const full = mesh.cell_volume(pairs.cell(best)) / record(best, SpecificVolume);
     return dof_mass(dof) < light_node * full ? best : -1;
+  }
+
+  /// That pair, where the light dof node travels too far or strains it too much, else -1.
+  KOKKOS_INLINE_FUNCTION int pairOfOffender(int dof) const
+  {
+    bool const fast = outruns(dof, velocity(dof), largest_part_of_altitude);
+    if (!fast && !mayBeLight(dof))
+      return -1;
+    int const best = pairOfLight(dof);
+    return best >= 0 && (fast || outruns(dof, velocity(dof) - plainMean(best), largest_light_strain)) ? best : -1;
+  }
+
+  /// A light dof node beside an offender goes with it: left free it would bear the momentum of nodes that outweigh it.
+  KOKKOS_INLINE_FUNCTION int pairOfCompanion(int dof) const
+  {
+    if (slowed_with(dof) >= 0)
+      return slowed_with(dof);
+    int const best = heaviestPair(dof, [this](int pair) { return slowsAny(pair); });
+    return best >= 0 && pairOfLight(dof) >= 0 ? best : -1;
   }
 
   struct PairMean
@@ -161,6 +183,46 @@ struct SlowLight
   }
 };
 
+/// Largest (dt |v| / (0.9 altitude))^2: of all local dof nodes, and of the owned ones. The outermost halo lacks forces,
+/// so that only the latter may steer; but every rank slows its copies of the others.
+struct Crossing
+{
+  long long light = 0; // dof nodes to be slowed
+  double local = 0.0;
+  double owned = 0.0;
+
+  KOKKOS_INLINE_FUNCTION void join(Crossing const &other)
+  {
+    light += other.light;
+    local = Math::max(local, other.local);
+    owned = Math::max(owned, other.owned);
+  }
+};
+
+Crossing largestCrossing(SlowLight const &slow)
+{
+  int const count = slow.dof_nodes.num_dof_nodes;
+  Crossing result;
+  Kokkos::parallel_reduce(
+      "Harmos::lagrange::largestCrossing", RangePolicy(0, count),
+      KOKKOS_LAMBDA(int dof, Crossing &largest) {
+        int const node = slow.dof_nodes.node(dof);
+        double const limit = largest_part_of_altitude * slow.altitude(node);
+        Vector2 const v = slow.velocity(dof);
+        double const travel2 = slow.dt * slow.dt * dot(v, v);
+        if (travel2 > limit * limit || slow.mayBeLight(dof))
+          largest.light += slow.pairOfOffender(dof) >= 0;
+        if (travel2 <= largest.owned * (limit * limit))
+          return;
+        double const squared = travel2 / (limit * limit);
+        largest.local = Math::max(largest.local, squared);
+        if (slow.mesh.node_owned(node))
+          largest.owned = Math::max(largest.owned, squared);
+      },
+      detail::JoinReducer<Crossing>(result));
+  return result;
+}
+
 struct SlowSums : TravelReport
 {
   KOKKOS_INLINE_FUNCTION void join(SlowSums const &other)
@@ -211,18 +273,24 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
                          LagrangeOptions const &options, double dt, LagrangeWork &work)
 {
   TravelReport report;
-  Crossing const crossing = largestCrossing(mesh, dof_nodes, dt, work);
+  SlowLight slow{mesh,          pairs,     dof_nodes,          materials, boundary, state.record,
+                 work.dof_mass, work.half, work.node_altitude, {},        dt,       options.light_node};
+  Crossing const crossing = largestCrossing(slow);
   report.largest_ratio = std::sqrt(crossing.owned);
-  if (!(crossing.local > 1.0))
+  if (crossing.light == 0)
     return report;
-  View<int *> const slowed_with("Harmos::lagrange::slowed_with", dof_nodes.num_dof_nodes);
-  SlowLight const slow{mesh,          pairs,     dof_nodes,          materials,   boundary, state.record,
-                       work.dof_mass, work.half, work.node_altitude, slowed_with, dt,       options.light_node};
+  int const count = dof_nodes.num_dof_nodes;
+  View<int *> const offender("Harmos::lagrange::offender", count), slowed("Harmos::lagrange::slowed", count);
   Kokkos::parallel_for(
-      "Harmos::lagrange::markLight", RangePolicy(0, dof_nodes.num_dof_nodes),
-      KOKKOS_LAMBDA(int dof) { slowed_with(dof) = slow.heaviestPair(dof); });
+      "Harmos::lagrange::markOffenders", RangePolicy(0, count),
+      KOKKOS_LAMBDA(int dof) { offender(dof) = slow.pairOfOffender(dof); });
+  slow.slowed_with = offender;
+  Kokkos::parallel_for(
+      "Harmos::lagrange::markCompanions", RangePolicy(0, count),
+      KOKKOS_LAMBDA(int dof) { slowed(dof) = slow.pairOfCompanion(dof); });
+  slow.slowed_with = slowed;
   report = slowMarked(slow, state.velocity, work);
-  report.largest_ratio = std::sqrt(largestCrossing(mesh, dof_nodes, dt, work).owned);
+  report.largest_ratio = std::sqrt(largestCrossing(slow).owned);
   return report;
 }
 

@@ -94,10 +94,16 @@ HARMOS_RARE_FUNCTION T softeningAt(Material const &m, T specific_volume, T inter
       { return softening(m, 1.0 / (m.density0 * laneOf(specific_volume, lane)), laneOf(p, lane), laneOf(hot, lane)); });
 }
 
-/// Shear modulus [Pa]: G0, without strength 0, Steinberg-Guinan G0 f.
+/// Shear modulus [Pa]: G0, without strength 0, Steinberg-Guinan G0 f; Johnson-Cook 0 where it has melted.
+///
+/// What is molten has no deviator: counted in the sound speed, G0 sv would bring the time step down wherever vapour
+/// expands.
 template <class T>
 KOKKOS_INLINE_FUNCTION T shearModulus(Material const &m, T specific_volume, T internal_energy)
 {
+  if (m.strength == StrengthKind::JohnsonCook)
+    return select(temperature(m, specific_volume, internal_energy) < T(m.flow.melting_temperature), T(m.shear_modulus),
+                  T(0.0));
   if (m.strength != StrengthKind::SteinbergGuinan)
     return T(m.strength == StrengthKind::None ? 0.0 : m.shear_modulus);
   return m.shear_modulus * softeningAt(m, specific_volume, internal_energy);

@@ -14,11 +14,11 @@ namespace
 
 using namespace RemapDetail;
 
-/// Forget what belongs to another mesh. A mesh that moves keeps its cells and loses its links.
+/// Forget what belongs to another mesh. A mesh that moves keeps its cells and their links, but not their boxes.
 void keepMesh(Mesh const &mesh, bool moves, Kept &kept)
 {
   if (moves || kept.moved_mesh)
-    kept.links = {};
+    kept.boxed = false;
   kept.moved_mesh = moves;
   if (kept.face_neighbour.data() == mesh.face_neighbour.data())
     return;
@@ -26,6 +26,7 @@ void keepMesh(Mesh const &mesh, bool moves, Kept &kept)
   kept.window = {};
   kept.classes = {};
   kept.links = {};
+  kept.boxed = false;
 }
 
 /// A boundary node slides along its straight walls, and stays at any other boundary. \throw std::runtime_error
@@ -112,6 +113,8 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
     kept.chunks = sweptChunks(in.mesh);
     kept.window = sweptWindow(kept.chunks);
   }
+  if (in.options.order == 3 && kept.window.spread.extent(0) == 0)
+    kept.window.spread = sweptSpreads(kept.chunks);
   stage.velocity = recycle(kept.velocities, "velocity", in.dof_nodes.num_dof_nodes);
   sums = sweep(SweptStage(in, classes, kept.window, before, stage.record, stage.kinetic, stage.velocity), kept.chunks,
                in.mesh.num_cells);
@@ -210,8 +213,8 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
 {
   if (options.order < 1 || options.order > 3)
     throw std::runtime_error("remap: order " + std::to_string(options.order) + " is none of 1, 2, 3");
-  if (options.order == 3 && options.swept_faces)
-    throw std::runtime_error("remap: order 3 is by intersection alone; switch swept_faces off");
+  if (options.order == 3 && options.swept_faces && options.hessian == RemapHessian::Contour)
+    throw std::runtime_error("remap: contour Hessians are by intersection alone; switch swept_faces off");
   if (options.order == 3 && mesh.geometry == Geometry::Axisymmetric)
     throw std::runtime_error("remap: order 3 is planar; axisymmetric meshes take orders 1 and 2");
   if (kinematics == Kinematics::Lagrangian)
@@ -243,6 +246,9 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
   Classes const &classes = keepClasses(in, kept);
   if (classes.num_interface > 0 && kept.links.link.extent(0) == 0)
     kept.links = linkNeighbours(mesh);
+  if (classes.num_interface > 0 && !kept.boxed)
+    boxCells(mesh, kept.links);
+  kept.boxed = kept.boxed || classes.num_interface > 0;
   in.links = kept.links;
   SweptSums sums;
   StageState const stage = sweepPureCells(in, classes, kept, sums);

@@ -30,7 +30,7 @@ enum class RemapHessian : int
 
 struct RemapOptions
 {
-  int order = 2; // 1, 2, or 3 without swept faces
+  int order = 2; // 1, 2, 3; momentum in swept regions at most 2
   RemapLimiter limiter = RemapLimiter::Range;
   RemapHessian hessian = RemapHessian::LeastSquares; // order 3
   double merge_below = 1e-6;      // fragments below this volume fraction merge with same-material neighbours; 0: never

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Axisymmetric runs: uniform axial motion, the cylindrical Noh problem, symmetry of a spherical blast, an impact about the
-axis on several ranks, the copper Taylor rod against other codes, and what is refused.
+axis on several ranks, failure, friction and bonds there, the copper Taylor rod against other codes, and what is refused.
 """
 import math
 import pathlib
@@ -74,6 +74,48 @@ def test_impact_about_the_axis_keeps_axial_momentum_and_is_the_same_on_any_numbe
         check(f"{n} ranks: history, worst in {column}", worst, ROUND_OFF)
         clean(several)
     clean(one)
+
+
+def test_what_fails_about_the_axis_keeps_the_ledgers_and_is_the_same_on_any_number_of_ranks():
+    common = {"materials/aluminium/tension_limit": 0.0, "materials/aluminium/spall_stress": 1.2e9,
+              "output/checkpoint/at_end": "true", "output/fields/at_end": "false"}
+    one = harmos(DECKS / "ring_impact.yaml", common)
+    check("axial momentum", one.summary["momentum_error"], 1e-13)
+    check("mass", one.summary["mass_error"], 1e-13)
+    check("energy", one.summary["energy_error"], 1e-12)
+    share = one.last("plate.failed_mass") / one.last("plate.mass")
+    print(f"  {100 * share:.1f} per cent of the plate has failed")
+    assert 0.01 < share < 0.9 and one.last("sphere.failed_mass") > 0.0
+    for n in (2, 4):
+        several = harmos(DECKS / "ring_impact.yaml", common, ranks=n)
+        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
+        clean(several)
+    clean(one)
+
+
+def test_a_sleeve_drawn_along_a_pressed_rod_does_the_work_of_coulomb_s_law():
+    # Force per radian mu p R L on the rod's side; its ends slip on walls, across which nothing moves.
+    pressure, coefficient, radius, length, speed = 1.0e5, 0.1, 0.5, 2.0, 1.0
+    for cells in (8, 16):
+        r = harmos(DECKS / "sleeve.yaml", {"mesh/x/cells": cells, "mesh/y/cells": 2 * cells})
+        exact = coefficient * pressure * radius * length * speed * r.last("time")
+        work = r.last("external_work")
+        print(f"  {cells} cells: work {work:.4f} J/rad, exact {exact:.4f}")
+        check("work", abs(work / exact - 1.0), 2e-3)
+        check("energy ledger", r.summary["energy_error"], 1e-9)
+        clean(r)
+
+
+def test_a_bond_around_the_axis_breaks_at_its_strength():
+    # Uniaxial strain; the ring leaves a plate at rest with V: rho c_L V, and what the first steps overshoot.
+    rho, c, g, speed = 7800.0, 4600.0, 80.0e9, 10.0
+    tension = rho * math.sqrt(c * c + 4.0 * g / (3.0 * rho)) * speed
+    for strength, broken in ((1.2, 0), (0.95, 8)):
+        r = harmos(DECKS / "bonded_ring.yaml", {"interactions/tensile_strength": strength * tension})
+        print(f"  strength {strength} of rho c V: {r.summary['broken_bonds']} bonds of 8 broke")
+        assert r.summary["broken_bonds"] == broken
+        check("axial momentum", r.summary["momentum_error"], 1e-12)
+        clean(r)
 
 
 def test_rigid_ball_on_the_axis_moves_along_it_and_action_is_reaction():

@@ -19,6 +19,8 @@ def same_state(a, b):
     with h5py.File(a) as left, h5py.File(b) as right:
         names = [f"pairs/{name}" for name in ("cell", "material", "record", "centroid", "corner_velocity")]
         assert ("nodes" in left) == ("nodes" in right), "only one of the meshes moves"
+        assert ("pairs/damage" in left) == ("pairs/damage" in right), "only one of the runs tracks damage"
+        names += ["pairs/damage"] if "pairs/damage" in left else []
         moving = ["nodes/global", "nodes/position"] if "nodes" in left else []
         for name in names + moving + ["time_and_dt"] + (["bodies"] if "bodies" in left else []):
             x, y = left[name][...], right[name][...]

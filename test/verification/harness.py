@@ -59,6 +59,10 @@ def read_columns(path):
     return columns
 
 
+def launcher(ranks):
+    return ["mpiexec", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] if ranks > 1 else []
+
+
 def harmos(deck, settings=None, ranks=1, directory=None, extra=(), expect=0):
     """Run a deck (path under example/) with overrides {'path/to/key': value}; assert its exit status."""
     directory = directory or tempfile.mkdtemp(prefix="harmos-")
@@ -66,8 +70,7 @@ def harmos(deck, settings=None, ranks=1, directory=None, extra=(), expect=0):
     for key, value in (settings or {}).items():
         command += ["--set", f"{key}={value}"]
     command += list(extra)
-    if ranks > 1:
-        command = ["mpiexec", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] + command
+    command = launcher(ranks) + command
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if expect is not None and done.returncode != expect:
         print(" ".join(command))

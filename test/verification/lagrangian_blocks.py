@@ -99,6 +99,7 @@ def test_what_cannot_be_meshed_is_refused_in_one_line():
     refused({"bodies/shell": PART}, "a mesh part needs kinematics lagrangian and mesh/file")
     refused(SHORT, "physical curve lower is no boundary", ring("2.2").replace('"bottom"', '"lower"'))
     refused(SHORT, '"shell" is no physical surface', ring("4.1").replace('"shell"', '"ring"'))
+    refused({**SHORT, "geometry": "axisymmetric"}, "belongs to no physical curve left", ring("2.2").replace('1 2 "left"', '1 2 "top"'))
     refused({**SHORT, "mesh/file": "nowhere.msh", "bodies/shell": PART}, "nowhere.msh: cannot be read")
 
 

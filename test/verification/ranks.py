@@ -34,6 +34,10 @@ def test_translation_patch():
     clean(compare("translation_patch/deck.yaml"))
 
 
+def test_third_order_with_swept_faces():
+    clean(compare("translation_patch/deck.yaml", {"numerics/remap/order": 3}))
+
+
 def test_two_bars():
     clean(compare("two_bars/deck.yaml"))
 

@@ -37,12 +37,40 @@ def test_cyclic_remapping_beats_the_peer_limited_and_stays_in_range():
             conserves_within_range(f"{motion}, {field}, {scheme}", r)
 
 
-def test_the_field_alone_by_intersection():
-    # bounds: the figures asked of 64 x 64 cells
-    for motion, bound in [("tensor", 2.5e-3), ("smooth", 6e-4)]:
-        r = remap(motion=motion, scheme="field intersection", cells="[64.0]")
-        check(f"{motion}, sine, field intersection: L1", r["L1"][0], bound)
-        conserves_within_range(f"{motion}, field intersection", r)
+def test_cyclic_remapping_within_range_is_hardly_worse_than_without_limiter():
+    # half the error of the peer's limited remap of 64 x 64 cells, and a third
+    for scheme in ["intersection", "field intersection"]:
+        for motion, bound in [("tensor", 2.5e-3), ("smooth", 6e-4)]:
+            r = remap(motion=motion, scheme=scheme, cells="[64.0]")
+            check(f"{motion}, sine, {scheme}: L1", r["L1"][0], bound)
+            conserves_within_range(f"{motion}, {scheme}", r)
+
+
+def test_third_order_on_random_meshes():
+    # parts of the error of the peer, which is of second order
+    for scheme in ["swept", "intersection"]:
+        r = remap("random.yaml", scheme=scheme, order=3, limiter="range inside", cells="[32.0, 64.0, 128.0]")
+        for error, peer, part in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5], [0.67, 0.33, 0.17]):
+            check(f"third order, {scheme}: L1", error, part * peer)
+        check(f"third order, {scheme}: slope below 3 by", 3.0 - r["order_L1"][2], 0.2)
+        r = remap(scheme=scheme, order=3, cells="[32.0]")
+        conserves_within_range(f"third order, {scheme}", r)
+
+
+def test_rings_are_remapped_as_planar_cells_are():
+    # axisymmetric: averages weighted by the radius. Bounds: the peer's planar figures
+    for scheme in ["swept", "intersection"]:
+        for motion, peer in [("tensor", 2.08e-2), ("smooth", 6.71e-3)]:
+            r = remap(geometry="axisymmetric", motion=motion, scheme=scheme, cells="[32.0]")
+            check(f"rings, {motion}, {scheme}: L1", r["L1"][0], peer)
+            conserves_within_range(f"rings, {motion}, {scheme}", r)
+            check(f"rings, {motion}, {scheme}: axial momentum", r["momentum"][0], 1e-13)
+    r = remap("random.yaml", geometry="axisymmetric", limiter="range inside", cells="[32.0, 64.0, 128.0]")
+    for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
+        check("rings, random: L1", error, peer)
+
+
+def test_the_field_alone_on_random_meshes():
     r = remap("random.yaml", scheme="field intersection", limiter="range inside", cells="[32.0, 64.0, 128.0]")
     for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
         check("random, L1", error, peer)
@@ -72,13 +100,13 @@ def test_random_meshes_orders_of_accuracy():
 
 
 def test_any_number_of_ranks_gives_the_same_errors():
-    for scheme in ["intersection", "field intersection"]:
-        one, two, four = (remap(cells="[32.0]", scheme=scheme, ranks=n) for n in (1, 2, 4))
+    for scheme, order in [("intersection", 2), ("field intersection", 2), ("swept", 3)]:
+        one, two, four = (remap(cells="[32.0]", scheme=scheme, order=order, ranks=n) for n in (1, 2, 4))
         for r in two, four:
             for column in ["L1", "L2"]:
-                check(f"{scheme}: {column} on more ranks", abs(r[column][0] / one[column][0] - 1.0), 1e-12)
+                check(f"{scheme}, order {order}: {column} on more ranks", abs(r[column][0] / one[column][0] - 1.0), 1e-12)
             for column in ["Linf", "below", "above"]:
-                check(f"{scheme}: {column} on more ranks", abs(r[column][0] - one[column][0]), 0.0)
+                check(f"{scheme}, order {order}: {column} on more ranks", abs(r[column][0] - one[column][0]), 0.0)
 
 
 def test_interpolation_loses_conservation():
@@ -104,9 +132,11 @@ def test_what_makes_no_sense_is_refused():
     assert "positive" in remap(carrier="density", expect=2)
     assert "ascending" in remap(cells="[32.0, 16.0]", expect=2)
     assert "expected" in remap(scheme="interpolation", limiter="none", expect=2)
-    assert "intersection" in remap(order=3, expect=2)
+    assert "intersection" in remap(scheme="interpolation", order=3, expect=2)
     assert "intersection" in remap(scheme="field intersection", order=3, expect=2)
     assert "expected" in remap(scheme="field intersection", limiter="van leer", expect=2)
+    assert "expected" in remap(scheme="field intersection", geometry="axisymmetric", expect=2)
+    assert "planar" in remap(order=3, geometry="axisymmetric", expect=2)
     assert "unknown" in remap(limitor="none", expect=2).lower()
 
 

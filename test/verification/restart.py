@@ -92,8 +92,8 @@ def test_other_number_of_ranks():
     clean(whole, part, r, full)
 
 
-def start(deck, directory, settings):
-    command = [harness.HARMOS, "run", str(harness.EXAMPLE / deck), "--output", str(directory)]
+def start(deck, directory, settings, ranks=1):
+    command = [*harness.launcher(ranks), harness.HARMOS, "run", str(harness.EXAMPLE / deck), "--output", str(directory)]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -161,8 +161,39 @@ def test_bad_restart_files_change_nothing():
         print(" ", r.text.strip())
         assert contents(part.directory) == before
     r = harmos(BALL, {**stop({}, 40), "mesh/x/cells": 41}, directory=part.directory, extra=["--restart", str(good)], expect=2)
-    assert "another mesh" in r.text and contents(part.directory) == before, r.text
+    assert "mesh/x/cells" in r.text and contents(part.directory) == before, r.text
     clean(part, other)
+
+
+def test_mesh_and_bodies_stay_and_other_changes_are_named():
+    part = harmos(BALL, {**stop({}, 20), "output/checkpoint/at_end": "true"})
+    good = ["--restart", str(newest_checkpoint(part.directory))]
+    other = pathlib.Path(str(part.directory) + "-changed")
+    refused = {"mesh/y/to": 1.1, "bodies/plate/center": "[1.3, 0.5]"}
+    for key, value in refused.items():
+        r = harmos(BALL, {**stop({}, 40), key: value}, directory=other, extra=good, expect=2)
+        assert key in r.text and len(r.text.splitlines()) == 1 and not other.exists(), r.text
+    r = harmos(BALL, {**stop({}, 40), "materials/aluminium/density": 2701.0}, directory=other, extra=good)
+    assert any("materials/aluminium/density" in text for text in r.summary["warnings"]), r.summary["warnings"]
+    r = harmos(BALL, stop({}, 20), directory=other, extra=[*good, "--force"])
+    assert any("nothing is left to do" in text for text in r.summary["warnings"]), r.summary["warnings"]
+    clean(part, r)
+
+
+def test_sigusr1_reaches_all_ranks_through_mpiexec():
+    whole = harmos(DISC, stop({}, 150))
+    directory = pathlib.Path(str(whole.directory) + "-ranks")
+    process = start(DISC, directory, stop({}, 150), ranks=2)
+    while rows(directory) < 4 and process.poll() is None:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGUSR1)
+    text = process.communicate()[0]
+    first = Run(directory, process.returncode, text)
+    assert first.summary["status"] == "interrupted" and 0 < first.summary["cycles"] < 150, text
+    r = harmos(DISC, stop({}, 150), directory=directory, ranks=2, extra=["--restart", str(newest_checkpoint(directory))])
+    worst, column = same_history(whole, r)
+    check(f"history, worst in {column}", worst, ROUND_OFF)
+    clean(whole, r)
 
 
 if __name__ == "__main__":

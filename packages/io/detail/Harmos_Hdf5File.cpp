@@ -134,7 +134,9 @@ void Hdf5File::write(std::string const &name, std::vector<T> const &value, int w
                             static_cast<hsize_t>(width)};
   Handle const file_space(H5Screate_simple(rank, shape, nullptr), H5Sclose);
   Handle const memory_space(H5Screate_simple(rank, count, nullptr), H5Sclose);
-  Handle const dataset(H5Dcreate2(file_, name.c_str(), typeOf<T>(), file_space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  Handle const untimed(H5Pcreate(H5P_DATASET_CREATE), H5Pclose); // equal results, equal bytes
+  H5Pset_obj_track_times(untimed, false);
+  Handle const dataset(H5Dcreate2(file_, name.c_str(), typeOf<T>(), file_space, H5P_DEFAULT, untimed, H5P_DEFAULT),
                        H5Dclose);
   check(dataset >= 0, "create " + name);
   bool selected;
@@ -165,7 +167,9 @@ void Hdf5File::writeText(std::string const &name, std::string const &text)
   H5Tset_size(type, text.size() + 1);
   H5Tset_cset(type, H5T_CSET_UTF8);
   Handle const space(H5Screate(H5S_SCALAR), H5Sclose);
-  Handle const dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  Handle const untimed(H5Pcreate(H5P_DATASET_CREATE), H5Pclose); // equal results, equal bytes
+  H5Pset_obj_track_times(untimed, false);
+  Handle const dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, untimed, H5P_DEFAULT), H5Dclose);
   Handle const transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   if (collective_)
     H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);

@@ -53,7 +53,10 @@ TEST(DeckContact, everyMethodHasItsWord)
   EXPECT_EQ(read({slides, open, "numerics/constraint/method=merged"}).constraint.method, ConstraintMethod::Merged);
   EXPECT_EQ(read({"numerics/constraint/placement=gauss points"}).constraint.placement, Placement::GaussPoints);
   EXPECT_EQ(read({"numerics/constraint/placement=segment ends"}).constraint.placement, Placement::SegmentEnds);
+  EXPECT_EQ(read({}).constraint.solver, MultiplierMethod::ProjectedNewton);
   EXPECT_EQ(read({"numerics/constraint/solver=row sums"}).constraint.solver, MultiplierMethod::RowSums);
+  EXPECT_EQ(read({"numerics/constraint/solver=conjugate gradients"}).constraint.solver,
+            MultiplierMethod::ConjugateGradients);
 }
 
 TEST(DeckContact, whatHasNoMeaning_isRefused)
@@ -63,6 +66,8 @@ TEST(DeckContact, whatHasNoMeaning_isRefused)
   expectRefused({"interactions/coefficient=0.3"},
                 "deck.yaml: interactions/coefficient: does not belong here, only where default = friction");
   expectRefused({"interactions/glue/tensile_strength=-1"}, "deck.yaml: interactions/glue/tensile_strength: -1");
+  expectRefused({"interactions/tape={between: patch, and: ring, type: sliding}"},
+                "deck.yaml: interactions/tape: the pair stands in interactions/glue already");
   expectRefused({"kinematics=single"}, "deck.yaml: interactions/glue/type: \"bonded\" has no meaning");
   expectRefused({"numerics/constraint={method: nitsche, placement: gauss points}"},
                 "deck.yaml: numerics/constraint/placement: does not belong here");

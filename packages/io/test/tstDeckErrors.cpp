@@ -72,8 +72,9 @@ TEST(DeckErrors, MissingKey_saysWhatIsExpected)
   EXPECT_EQ(messageOfText(deck), "deck.yaml: run/end_time: missing; expected: number > 0 [s]");
   deck = exampleDeck();
   deck.replace(deck.find("shape: annulus, "), 16, "");
-  EXPECT_EQ(messageOfText(deck),
-            "deck.yaml: bodies/ring/shape: missing; expected: rectangle | disc | annulus | polygon | half-plane | mesh part");
+  EXPECT_EQ(
+      messageOfText(deck),
+      "deck.yaml: bodies/ring/shape: missing; expected: rectangle | disc | annulus | polygon | half-plane | mesh part");
   EXPECT_EQ(messageOfText("harmos:\n  title: x\n"), "deck.yaml: mesh/x/from: missing; expected: number [m]");
 }
 
@@ -109,8 +110,8 @@ TEST(DeckErrors, ImpossibleValue_showsTheRange)
             "deck.yaml: numerics/courant: 1.5 is out of range; expected: number in (0, 1)");
   EXPECT_EQ(message({"numerics/remap/order=4"}),
             "deck.yaml: numerics/remap/order: 4 is out of range; expected: integer in [1, 3]");
-  EXPECT_EQ(message({"numerics/remap/order=3"}),
-            "deck.yaml: numerics/remap/order: 3 is by intersection alone; expected: "
+  EXPECT_EQ(message({"numerics/remap/order=3", "numerics/remap/hessian=contour"}),
+            "deck.yaml: numerics/remap/hessian: \"contour\" is by intersection alone; expected: "
             "numerics/remap/swept_faces false");
   EXPECT_EQ(message({"numerics/remap/hessian=contour"}),
             "deck.yaml: numerics/remap/hessian: \"contour\" is for the third order; expected: numerics/remap/order 3");

@@ -181,10 +181,12 @@ TEST(DeckMaterials, From_readsALawFromAFileAndTheDecksKeysWin)
 
 TEST(DeckMaterials, FromWithAWrongFile_saysWhatIsWrong)
 {
-  EXPECT_EQ(message("from: no_such.yaml", {}, "some/deck.yaml"), "some/no_such.yaml: cannot be read");
+  EXPECT_EQ(message("from: no_such.yaml", {}, "some/deck.yaml"),
+            "some/deck.yaml: materials/metal/from: some/no_such.yaml: cannot be read");
   MaterialFile const wrong("metal:\n  eos: rigid\n");
   EXPECT_STARTS(message("from: harmos_metal.yaml", {}, wrong.deck()),
-                wrong.path() + ": outermost key is metal; expected: material");
+                wrong.deck() + ": materials/metal/from: " + wrong.path() +
+                    ": outermost key is metal; expected: material");
   MaterialFile const misspelt(asFile(copper + "strenght: none"));
   EXPECT_NE(message("from: harmos_metal.yaml", {}, misspelt.deck()).find("did you mean strength?"), std::string::npos);
 }

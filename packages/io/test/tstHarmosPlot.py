@@ -50,6 +50,7 @@ class HarmosPlot(unittest.TestCase):
     def test_comparison_isWiderOrTallerThanOnePanel(self):
         one, two = self.picture(RUN), self.picture(RUN, "--compare", RUN, "--labels", "xfem", "single")
         self.assertGreater(two.size, 1.5 * one.size)
+        self.assertGreater(self.picture(RUN, "--compare", RUN, "--compare", RUN).size, 1.3 * two.size)
 
     def test_historyColumns_areDrawn(self):
         self.picture(RUN, "--history", "kinetic_energy", "copper.mass")

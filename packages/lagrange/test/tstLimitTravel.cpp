@@ -99,10 +99,32 @@ TEST(LimitTravel, FreeFlyingSliver_keepsItsMomentum)
   Kokkos::deep_copy(s.work.predicted, s.state.velocity);
   auto const before = sums(s);
   auto const report = limit(s, 0.2);
-  EXPECT_EQ(report.limited, 1);
+  EXPECT_EQ(report.limited, 4); // its light companions go with the node that is too fast
   auto const after = sums(s);
   for (int d = 0; d < 2; ++d)
     EXPECT_NEAR(after.momentum[d], before.momentum[d], 1e-13 * std::fabs(before.momentum[0]));
+}
+
+TEST(LimitTravel, SqueezedSplinter_takesItsMeanAndAHeavyPieceDoesNot)
+{
+  for (double const fill : {1e-6, 1e-2})
+  {
+    Scene s = makeScene(3, 3, 0.0, {elastic()},
+                        [=](int i, int j) {
+                          return i == 1 && j == 1 ? std::vector<Fill>{{0, fill}} : std::vector<Fill>{};
+                        });
+    s.setVelocity([](int, Vector2 x) { return Vector2{0.2, x[1] > 1.5 ? -1.0 : 2.0}; });
+    Kokkos::deep_copy(s.work.half, s.state.velocity);
+    Kokkos::deep_copy(s.work.predicted, s.state.velocity);
+    auto const before = sums(s);
+    auto const report = limit(s, 0.2); // travels 0.4, moves by 0.3 against the mean
+    auto const after = sums(s);
+    EXPECT_EQ(report.limited, fill < 1e-3 ? 4 : 0);
+    for (int d = 0; d < 2; ++d)
+      EXPECT_NEAR(after.momentum[d], before.momentum[d], 1e-13 * std::fabs(before.momentum[d]));
+    EXPECT_NEAR(report.energy_loss, before.kinetic_energy - after.kinetic_energy, 1e-13 * before.kinetic_energy);
+    EXPECT_EQ(limit(s, 0.1).limited, 0);
+  }
 }
 
 TEST(LimitTravel, WallNodes_keepTheirConditionAndTheWallsShareIsBooked)

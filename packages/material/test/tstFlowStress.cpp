@@ -204,3 +204,14 @@ TEST(StrainedDeviator, PacksAndDoubles_agree)
     }
   }
 }
+
+TEST(LongitudinalSoundSpeed, MoltenJohnsonCook_isTheBulkOne)
+{
+  Material const m = johnsonCookCopper();
+  double const c2 = 3940.0 * 3940.0, sv = 1.0 / m.density0;
+  double const solid = c2 + 4.0 * m.shear_modulus * sv / 3.0;
+  EXPECT_DOUBLE_EQ(longitudinalSoundSpeedSquared(m, c2, sv, energyAt(m, sv, 1350.0)), solid);
+  EXPECT_EQ(longitudinalSoundSpeedSquared(m, c2, sv, energyAt(m, sv, 1360.0)), c2);
+  // vapour: no modulus times a large specific volume
+  EXPECT_EQ(longitudinalSoundSpeedSquared(m, c2, 1e4 * sv, 2e7), c2);
+}

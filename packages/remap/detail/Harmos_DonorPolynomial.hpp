@@ -5,7 +5,8 @@
 #include <detail/Harmos_Donors.hpp>
 
 #include <Harmos_AreaWeight.hpp>
-#include <Harmos_Select.hpp>
+#include <detail/Harmos_OverlayList.hpp>
+#include <detail/Harmos_RangeLimit.hpp>
 
 namespace Harmos
 {
@@ -44,28 +45,15 @@ KOKKOS_INLINE_FUNCTION MovedVertices verticesAbout(Region const &region, Vector2
   return v;
 }
 
-/// The largest part of a gradient, at most all, that keeps q + g.(x - shift) within range at all vertices.
-template <class T>
-KOKKOS_INLINE_FUNCTION T limitedPart(MovedVertices const &v, T const &q, T const &gx, T const &gy, T const &shift,
-                                     T const &lower, T const &upper)
+/// Weights of a linear polynomial's mean and gradient in its integrals over a part of a donor: by volume, by mass.
+struct LinearWeights
 {
-  T most = 0.0, least = 0.0;
-  for (int i = 0; i < v.size; ++i)
-  {
-    T const delta = T(v.x[i]) * gx + T(v.y[i]) * gy - shift;
-    most = Math::max(most, delta);
-    least = Math::min(least, delta);
-  }
-  T const above = upper - q, below = lower - q;
-  auto const high = most > above;
-  auto const low = below > least;
-  T const up = select(high, T(above / select(high, most, T(1.0))), T(1.0));
-  T const down = select(low, T(below / select(low, least, T(1.0))), T(1.0));
-  return Math::min(up, down);
-}
+  double volume, mass;
+  Vector2 by_volume, by_mass; // of the gradients
+};
 
 /// Finds polynomials: gradients from least squares over the same-material pairs of the vertex neighbours, limited
-/// (Barth & Jespersen, AIAA 89-0366) at all vertices of the donor's polygon to their range.
+/// in the mean of every overlay to their range.
 ///
 /// Gradients of the corner velocities come from velocities before stage 1, so that they need no wider halo.
 struct PolynomialFinder
@@ -93,20 +81,31 @@ struct PolynomialFinder
     return m;
   }
 
-  /// Integrals of the donor's fields over one overlay with moments V, S, T about its centroid:
-  /// mass = rho V + grad rho . S; integral of rho phi = phi mass + grad phi . (rho S + T grad rho - e mass);
-  /// deviator: s V + grad s . S.
+  /// Of a density rho + g.d, mass centroid at e, over a part with moments V, S, T about the donor's centroid:
+  /// mass = rho V + g.S; gradients by mass: rho S + T g - e mass.
+  KOKKOS_INLINE_FUNCTION static LinearWeights weights(double rho, Vector2 const &g, Vector2 const &e,
+                                                      OverlayMoments const &m)
+  {
+    LinearWeights w;
+    w.volume = m.volume();
+    w.mass = rho * m.volume() + (g[0] * m.first(0) + g[1] * m.first(1));
+    w.by_volume = {m.first(0), m.first(1)};
+    w.by_mass = {rho * m.first(0) + (m.second(0, 0) * g[0] + m.second(0, 1) * g[1]) - e[0] * w.mass,
+                 rho * m.first(1) + (m.second(0, 1) * g[0] + m.second(1, 1) * g[1]) - e[1] * w.mass};
+    return w;
+  }
+
+  /// Integrals of the donor's fields over one overlay: density and deviator by volume, primitives phi as rho phi.
   KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m)
   {
-    double const rho = p.mean.record[DensityField];
-    double const rx = p.x.record[DensityField], ry = p.y.record[DensityField];
-    double const mass = rho * m.volume() + (rx * m.first(0) + ry * m.first(1));
-    double const x = rho * m.first(0) + (m.second(0, 0) * rx + m.second(0, 1) * ry) - p.mass_offset[0] * mass;
-    double const y = rho * m.first(1) + (m.second(0, 1) * rx + m.second(1, 1) * ry) - p.mass_offset[1] * mass;
+    LinearWeights const w =
+        weights(p.mean.record[DensityField], {p.x.record[DensityField], p.y.record[DensityField]}, p.mass_offset, m);
     StageFields out;
-    out.record = p.mean.record * fieldWeights(m.volume(), mass) +
-                 (p.x.record * fieldWeights(m.first(0), x) + p.y.record * fieldWeights(m.first(1), y));
-    out.corner = p.mean.corner * FieldPack(mass) + (p.x.corner * FieldPack(x) + p.y.corner * FieldPack(y));
+    out.record =
+        p.mean.record * fieldWeights(w.volume, w.mass) + (p.x.record * fieldWeights(w.by_volume[0], w.by_mass[0]) +
+                                                          p.y.record * fieldWeights(w.by_volume[1], w.by_mass[1]));
+    out.corner = p.mean.corner * FieldPack(w.mass) +
+                 (p.x.corner * FieldPack(w.by_mass[0]) + p.y.corner * FieldPack(w.by_mass[1]));
     return out;
   }
 
@@ -260,20 +259,60 @@ struct PolynomialFinder
            (in.options.limiter == RemapLimiter::RangeInside && !isAtBoundary(cell));
   }
 
-  /// Scale the gradient of eight fields; those of weight one in `by_mass` are limited about the mass centroid.
-  KOKKOS_INLINE_FUNCTION static void limit(MovedVertices const &v, Vector2 const &mass_offset, FieldPack const &by_mass,
-                                           FieldPack const &q, FieldPack const &lower, FieldPack const &upper,
-                                           FieldPack &gx, FieldPack &gy)
+  /// Deviations of the parts' means from the donor's.
+  struct Deviations
   {
-    FieldPack const ex = FieldPack(mass_offset[0]) * by_mass, ey = FieldPack(mass_offset[1]) * by_mass;
-    FieldPack const shift = gx * ex + gy * ey;
+    FieldPack least{0.0}, most{0.0};
+
+    KOKKOS_FORCEINLINE_FUNCTION void add(FieldPack const &d)
+    {
+      least = lesser(least, d);
+      most = greater(most, d);
+    }
+  };
+
+  /// Scale the gradient of eight fields so that the deviations, which it is proportional to, stay within range.
+  KOKKOS_INLINE_FUNCTION static void limit(Deviations const &d, FieldPack const &q, FieldPack const &lower,
+                                           FieldPack const &upper, FieldPack &gx, FieldPack &gy)
+  {
     for (int p = 0; p < FieldPack::parts; ++p)
     {
-      Pack const a =
-          limitedPart<Pack>(v, q.part[p], gx.part[p], gy.part[p], shift.part[p], lower.part[p], upper.part[p]);
+      Pack const a = partWithin<Pack>(d.least.part[p], d.most.part[p], q.part[p], lower.part[p], upper.part[p]);
       gx.part[p] = a * gx.part[p];
       gy.part[p] = a * gy.part[p];
     }
+  }
+
+  /// The part of a density's gradient that keeps the means of all parts within range.
+  KOKKOS_INLINE_FUNCTION static double densityPart(OverlayList<OverlayMoments> const &overlays, double rho,
+                                                   Vector2 const &g, double lower, double upper)
+  {
+    double least = 0.0, most = 0.0;
+    for (int o = 0; o < overlays.parts(); ++o)
+    {
+      OverlayMoments const m = overlays.fieldMoments(o);
+      double const deviation = (g[0] * m.first(0) + g[1] * m.first(1)) / m.volume();
+      least = Math::min(least, deviation);
+      most = Math::max(most, deviation);
+    }
+    return partWithin<double>(least, most, rho, lower, upper);
+  }
+
+  /// Limit the gradients of all fields but the density, which is rho + g.d with the mass centroid at e.
+  KOKKOS_INLINE_FUNCTION static void limitToRange(OverlayList<OverlayMoments> const &overlays, StageFields const &q,
+                                                  Vector2 const &g, Vector2 const &e, Gradient &all)
+  {
+    Deviations of_record, of_corner;
+    for (int o = 0; o < overlays.parts(); ++o)
+    {
+      LinearWeights const w = weights(q.record[DensityField], g, e, overlays.fieldMoments(o));
+      double const per_volume = 1.0 / w.volume, per_mass = 1.0 / w.mass;
+      Vector2 const v = per_volume * w.by_volume, m = per_mass * w.by_mass;
+      of_record.add(all.x.record * fieldWeights(v[0], m[0]) + all.y.record * fieldWeights(v[1], m[1]));
+      of_corner.add(all.x.corner * FieldPack(m[0]) + all.y.corner * FieldPack(m[1]));
+    }
+    limit(of_record, q.record, all.lower.record, all.upper.record, all.x.record, all.y.record);
+    limit(of_corner, q.corner, all.lower.corner, all.upper.corner, all.x.corner, all.y.corner);
   }
 
   /// The gradient of a donor of mean q, not yet limited; the range g starts with its values before and after stage 1.
@@ -288,8 +327,9 @@ struct PolynomialFinder
     return before;
   }
 
-  /// Of a moving donor of `cell`; vertices about its centroid.
-  KOKKOS_INLINE_FUNCTION DonorPolynomial polynomial(int donor, int cell, MovedVertices const &v) const
+  /// Of a moving donor of `cell`.
+  KOKKOS_INLINE_FUNCTION DonorPolynomial polynomial(int donor, int cell,
+                                                    OverlayList<OverlayMoments> const &overlays) const
   {
     DonorPolynomial result = constantPolynomial(loadStageFields(&donors.value(donor, 0)));
     if (in.options.order == 1)
@@ -304,25 +344,17 @@ struct PolynomialFinder
       limitVanLeer(beyond, true, g.x.corner, g.y.corner);
     }
     bool const to_range = limitsToRange(cell);
-    double const rho = q.record[DensityField];
-    double gx = g.x.record[DensityField], gy = g.y.record[DensityField];
+    double const rho = q.record[DensityField], volume = donors.shape(donor, 0);
+    Vector2 slope{g.x.record[DensityField], g.y.record[DensityField]};
     if (to_range)
-    {
-      double const alpha =
-          limitedPart<double>(v, rho, gx, gy, 0.0, g.lower.record[DensityField], g.upper.record[DensityField]);
-      gx *= alpha;
-      gy *= alpha;
-    }
-    double const per_mass = 1.0 / (rho * donors.shape(donor, 0));
-    Vector2 const e{per_mass * (donors.shape(donor, 3) * gx + donors.shape(donor, 4) * gy),
-                    per_mass * (donors.shape(donor, 4) * gx + donors.shape(donor, 5) * gy)};
+      slope = densityPart(overlays, rho, slope, g.lower.record[DensityField], g.upper.record[DensityField]) * slope;
+    double const per_mass = 1.0 / (rho * volume);
+    Vector2 const e{per_mass * (donors.shape(donor, 3) * slope[0] + donors.shape(donor, 4) * slope[1]),
+                    per_mass * (donors.shape(donor, 4) * slope[0] + donors.shape(donor, 5) * slope[1])};
     if (to_range)
-    {
-      limit(v, e, fieldWeights(0.0, 1.0), q.record, g.lower.record, g.upper.record, g.x.record, g.y.record);
-      limit(v, e, FieldPack(1.0), q.corner, g.lower.corner, g.upper.corner, g.x.corner, g.y.corner);
-    }
-    g.x.record.set<DensityField>(gx);
-    g.y.record.set<DensityField>(gy);
+      limitToRange(overlays, q, slope, e, g);
+    g.x.record.set<DensityField>(slope[0]);
+    g.y.record.set<DensityField>(slope[1]);
     result.x = g.x;
     result.y = g.y;
     result.mass_offset = e;

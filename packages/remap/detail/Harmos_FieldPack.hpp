@@ -74,6 +74,20 @@ KOKKOS_FORCEINLINE_FUNCTION FieldPack operator*(FieldPack a, FieldPack const &b)
   return a *= b;
 }
 
+/// Add weight * b.
+KOKKOS_FORCEINLINE_FUNCTION void addTimes(FieldPack &a, double weight, FieldPack const &b)
+{
+  a += FieldPack(weight) * b;
+}
+KOKKOS_FORCEINLINE_FUNCTION void scale(FieldPack &a, double factor)
+{
+  a *= FieldPack(factor);
+}
+KOKKOS_FORCEINLINE_FUNCTION FieldPack zero(FieldPack const &)
+{
+  return FieldPack(0.0);
+}
+
 KOKKOS_FORCEINLINE_FUNCTION FieldPack lesser(FieldPack a, FieldPack const &b)
 {
   for (int p = 0; p < FieldPack::parts; ++p)

@@ -17,7 +17,8 @@ struct Kept
   SweptChunks chunks;
   SweptWindow window;
   NeighbourLinks links;
-  bool moved_mesh = false; // the links are of a mesh that is not the caller's for good
+  bool boxed = false;      // their boxes are the mesh's
+  bool moved_mesh = false; // the boxes are of a mesh that is not the caller's for good
 
   // Held so that their addresses are not given to others: equal addresses then mean equal contents.
   CellMaterialPairs pairs;

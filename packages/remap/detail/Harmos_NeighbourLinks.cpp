@@ -54,7 +54,15 @@ NeighbourLinks linkNeighbours(Mesh const &mesh)
               static_cast<unsigned char>(4 * slotOf(mesh, neighbour, cell) + cornerRotation(mesh, cell, neighbour));
         }
       });
-  View<double *[4]> const box = scratch<double *[4]>("boxes", mesh.num_cells);
+  links.link = link;
+  return links;
+}
+
+void boxCells(Mesh const &mesh, NeighbourLinks &links)
+{
+  if (links.box.extent(0) == 0)
+    links.box = scratch<double *[4]>("boxes", mesh.num_cells);
+  View<double *[4]> const box = links.box;
   Kokkos::parallel_for(
       "Harmos::remap::boxes", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
         Quadrilateral const q = cellQuadrilateral(mesh, cell);
@@ -64,9 +72,6 @@ NeighbourLinks linkNeighbours(Mesh const &mesh)
           box(cell, 2 + d) = Math::max(Math::max(q[0][d], q[1][d]), Math::max(q[2][d], q[3][d]));
         }
       });
-  links.link = link;
-  links.box = box;
-  return links;
 }
 
 } // namespace RemapDetail

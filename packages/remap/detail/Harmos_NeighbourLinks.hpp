@@ -26,8 +26,11 @@ struct NeighbourLinks
   KOKKOS_INLINE_FUNCTION int rotation(int j) const { return link(j) & 3; }
 };
 
-/// Throws where a cell has more neighbours than fit.
+/// All but the boxes, which depends on the mesh's connectivity alone. Throws where a cell has more neighbours than fit.
 NeighbourLinks linkNeighbours(Mesh const &mesh);
+
+/// The boxes, anew.
+void boxCells(Mesh const &mesh, NeighbourLinks &links);
 
 } // namespace RemapDetail
 } // namespace Harmos

@@ -105,6 +105,7 @@ struct IntersectFunctor : Finder
 {
   using OverlayMoments = typename Finder::OverlayMoments;
   using Donor = DonorAtWork<typename Finder::Polynomial>;
+  using List = OverlayList<OverlayMoments>;
   using Finder::classes;
   using Finder::donors;
   using Finder::in;
@@ -118,9 +119,11 @@ struct IntersectFunctor : Finder
   }
 
   /// Book an overlay in the acceptor's slot.
-  KOKKOS_INLINE_FUNCTION void take(Donor &d, int slot, int acceptor, OverlayMoments const &m) const
+  /// \param fields The moments that the fields are integrated with.
+  KOKKOS_INLINE_FUNCTION void take(Donor &d, int slot, int acceptor, OverlayMoments const &m,
+                                   OverlayMoments const &fields) const
   {
-    StageFields const part = Finder::integrate(d.polynomial, m);
+    StageFields const part = Finder::integrate(d.polynomial, fields);
     d.rest -= part;
     d.rest_volume -= m.volume();
     d.rest_first -= Vector2{m.first(0), m.first(1)};
@@ -158,29 +161,27 @@ struct IntersectFunctor : Finder
   {
     OverlayMoments m;
     m.value[0] = d.volume;
-    take(d, 0, d.cell, m);
+    take(d, 0, d.cell, m, m);
   }
 
-  KOKKOS_INLINE_FUNCTION void takeIfAny(Donor &d, int slot, int acceptor, OverlayMoments const &m) const
+  KOKKOS_INLINE_FUNCTION void addIfAny(List &list, int slot, int acceptor, OverlayMoments const &m) const
   {
     if (m.volume() > least_overlay * in.mesh.cell_volume(acceptor))
-      take(d, slot, acceptor, m);
+      list.add(slot, acceptor, m);
   }
 
   /// The overlay with one cell.
-  KOKKOS_INLINE_FUNCTION void takeSlot(Donor &d, MovedVertices const &v, int slot, int acceptor) const
+  KOKKOS_INLINE_FUNCTION void cutSlot(List &list, Donor const &d, MovedVertices const &v, int slot, int acceptor) const
   {
     bool whole = false;
     Window const w = windowAbout(in.mesh, acceptor, d.centroid);
-    OverlayMoments m = Finder::measured(
+    OverlayMoments const m = Finder::measured(
         momentsInside<typename Finder::PlaneMoments, max_region_vertices>(v.size, v.x, v.y, w, whole), d.centroid[0]);
-    if (whole)
-      m = Finder::wholeMoments(d.number, v);
-    takeIfAny(d, slot, acceptor, m);
+    addIfAny(list, slot, acceptor, whole ? list.whole : m);
   }
 
   /// The overlays with the cells of a pack, which is emptied.
-  KOKKOS_INLINE_FUNCTION void takePack(Donor &d, MovedVertices const &v, SlotPack &pack) const
+  KOKKOS_INLINE_FUNCTION void cutPack(List &list, Donor const &d, MovedVertices const &v, SlotPack &pack) const
   {
     for (int lane = pack.count; lane < pack_width; ++lane)
       pack.acceptor[lane] = pack.acceptor[0];
@@ -192,19 +193,22 @@ struct IntersectFunctor : Finder
     {
       if (laneOf(m.pieces, lane) > 1.0)
       {
-        takeSlot(d, v, pack.slot[lane], pack.acceptor[lane]);
+        cutSlot(list, d, v, pack.slot[lane], pack.acceptor[lane]);
         continue;
       }
       OverlayMoments one;
       for (int i = 0; i < Moments<2>::count; ++i)
         one.value[i] = value[i][lane];
-      takeIfAny(d, pack.slot[lane], pack.acceptor[lane], one);
+      addIfAny(list, pack.slot[lane], pack.acceptor[lane], one);
     }
     pack.count = 0;
   }
 
-  KOKKOS_INLINE_FUNCTION void intersectCells(Donor &d, MovedVertices const &v) const
+  /// All overlays of a moving donor.
+  KOKKOS_INLINE_FUNCTION void cutDonor(Donor const &d, List &list) const
   {
+    MovedVertices const v = verticesAbout(donors.polygon(d.number), d.centroid);
+    list.whole = Finder::wholeMoments(d.number, v);
     Region const &region = donors.polygon(d.number);
     double low_x = region[0][0], high_x = low_x, low_y = region[0][1], high_y = low_y;
     for (int i = 1; i < region.size; ++i)
@@ -230,15 +234,16 @@ struct IntersectFunctor : Finder
         continue;
       if (!Finder::overlaysInPacks() || v.size > most_pack_vertices)
       {
-        takeSlot(d, v, s, acceptor);
+        cutSlot(list, d, v, s, acceptor);
         continue;
       }
       pack.add(s, acceptor);
       if (pack.count == pack_width)
-        takePack(d, v, pack);
+        cutPack(list, d, v, pack);
     }
     if (pack.count > 0)
-      takePack(d, v, pack);
+      cutPack(list, d, v, pack);
+    list.setRest();
   }
 
   /// A donor of which nothing is left above the threshold stays whole: its volume fraction at its old centroid.
@@ -310,12 +315,17 @@ struct IntersectFunctor : Finder
     d.centroid = {donors.shape(number, 1), donors.shape(number, 2)};
     if (head.kind == MovingDonor)
     {
-      MovedVertices const v = verticesAbout(donors.polygon(number), d.centroid);
-      d.polynomial = Finder::polynomial(number, cell, v);
-      begin(d);
-      intersectCells(d, v);
-      if (d.overlaps == 0)
+      List list;
+      cutDonor(d, list);
+      if (list.size == 0)
         makeWhole(d, head.pair);
+      else
+      {
+        d.polynomial = Finder::polynomial(number, cell, list);
+        begin(d);
+        for (int o = 0; o < list.size; ++o)
+          take(d, list.slot[o], list.acceptor[o], list.moments[o], list.fieldMoments(o));
+      }
     }
     else
     {

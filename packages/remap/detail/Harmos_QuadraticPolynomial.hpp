@@ -4,6 +4,7 @@
 
 #include <detail/Harmos_DonorPolynomial.hpp>
 #include <detail/Harmos_OverlayMoments.hpp>
+#include <detail/Harmos_QuadraticFit.hpp>
 
 namespace Harmos
 {
@@ -42,7 +43,8 @@ KOKKOS_INLINE_FUNCTION void massMoments(StageFields const (&c)[num_monomials], Q
 
 /// Finds quadratic polynomials, by default by a least-squares fit that is exact for quadratics: cell averages of
 /// g.d + d.H d / 2 over the vertex neighbours of the same material less those over the donor, weighted by filled part
-/// over distance squared. Where the neighbours do not determine the six coefficients, the linear gradient remains.
+/// over distance squared. A second derivative that the neighbours do not determine is zero; the linear gradient remains
+/// where they do not determine that.
 ///
 /// f = mean + s_G g.d + s_H (d.H d / 2 - chi), chi so that the mean stays (of rho phi where weighted by mass).
 struct QuadraticFinder : PolynomialFinder
@@ -84,181 +86,134 @@ struct QuadraticFinder : PolynomialFinder
     return out;
   }
 
-  /// Normal equations of the fit, for x / h, y / h, and the second moments over h^2 of the unknowns
-  /// g_x, g_y, H_xx / 2, H_xy, H_yy / 2.
-  struct Fit
-  {
-    double matrix[5][5] = {};
-    StageFields right[5];
-    double h2, xx, xy, yy; // the donor's volume, and its central second moments over it
-  };
-
-  /// Central second moments over volume of a neighbour.
-  KOKKOS_INLINE_FUNCTION void spread(int cell, int index, int material, double (&s)[3]) const
+  /// Of a neighbour.
+  KOKKOS_INLINE_FUNCTION Spread spreadOf(int cell, int index, int material, Vector2 const &centroid) const
   {
     int const donor = index < 0 ? -1 : donors.find(index, material);
     if (donor >= 0 && donors.head(donor).kind == MovingDonor)
-    {
-      for (int i = 0; i < 3; ++i)
-        s[i] = donors.shape(donor, 3 + i) / donors.shape(donor, 0);
-      return;
-    }
+      return spreadOf(donor);
     int const pair = donor < 0 ? in.pairs.offset(cell) : donors.head(donor).pair;
     Region const region = in.regions.region(in.mesh, in.pairs, pair);
     Moments<2> const m = moments<2>(region, region[0]);
     Vector2 const d = m.centroid();
-    s[0] = m.second(0, 0) / m.volume() - d[0] * d[0];
-    s[1] = m.second(0, 1) / m.volume() - d[0] * d[1];
-    s[2] = m.second(1, 1) / m.volume() - d[1] * d[1];
+    return {centroid,
+            {m.second(0, 0) / m.volume() - d[0] * d[0], m.second(0, 1) / m.volume() - d[0] * d[1],
+             m.second(1, 1) / m.volume() - d[1] * d[1]}};
   }
 
-  KOKKOS_INLINE_FUNCTION void addNeighbour(Fit &fit, Neighbour const &n, double const (&s)[3], Vector2 const &d,
-                                           StageFields const &q) const
+  KOKKOS_INLINE_FUNCTION Spread spreadOf(int donor) const
   {
-    double const per_h = 1.0 / Math::sqrt(fit.h2), per_h2 = 1.0 / fit.h2;
-    double const row[5] = {per_h * d[0], per_h * d[1], per_h2 * (s[0] - fit.xx + d[0] * d[0]),
-                           per_h2 * (s[1] - fit.xy + d[0] * d[1]), per_h2 * (s[2] - fit.yy + d[1] * d[1])};
-    double const w = n.filled * fit.h2 / dot(d, d);
-    StageFields const difference = n.value - q;
-    for (int i = 0; i < 5; ++i)
-    {
-      for (int j = 0; j <= i; ++j)
-        fit.matrix[i][j] += w * row[i] * row[j];
-      addTimes(fit.right[i], w * row[i], difference);
-    }
+    Spread s{{donors.shape(donor, 1), donors.shape(donor, 2)}, {}};
+    for (int i = 0; i < 3; ++i)
+      s.second[i] = donors.shape(donor, 3 + i) / donors.shape(donor, 0);
+    return s;
   }
 
-  KOKKOS_INLINE_FUNCTION void gather(Fit &fit, int cell, int material, Vector2 const &centroid,
-                                     StageFields const &q) const
+  KOKKOS_INLINE_FUNCTION void gather(QuadraticFit<StageFields> &fit, int cell, int material, StageFields const &q) const
   {
-    for (int i = 0; i < 5; ++i)
-      fit.right[i] = stageFields(0.0);
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
     {
       Neighbour n;
       if (!findNeighbour(j, material, n))
         continue;
-      Vector2 const d = n.centroid - centroid;
-      if (!(dot(d, d) > 0.0))
-        continue;
-      double s[3];
       int const neighbour = in.mesh.cell_neighbour.item(j);
-      spread(neighbour, classes.interface_index(neighbour), material, s);
-      addNeighbour(fit, n, s, d, q);
+      fit.add(spreadOf(neighbour, classes.interface_index(neighbour), material, n.centroid), n.filled, n.value - q);
     }
   }
 
-  /// Cholesky's factors in place; false where the neighbours do not determine the unknowns.
-  KOKKOS_INLINE_FUNCTION static bool factorise(Fit &fit)
+  /// Means of the monomials over a part of a donor, by volume and by mass.
+  struct MonomialMeans
   {
-    constexpr double least_pivot = 0.05; // of the diagonal; 0.75 inside a regular mesh, none where a side is missing
-    for (int i = 0; i < 5; ++i)
+    double by_volume[num_monomials], by_mass[num_monomials];
+
+    KOKKOS_INLINE_FUNCTION FieldPack ofRecord(int i) const { return fieldWeights(by_volume[i], by_mass[i]); }
+    KOKKOS_INLINE_FUNCTION FieldPack ofCorner(int i) const { return FieldPack(by_mass[i]); }
+  };
+
+  /// With a density whose coefficients are in c.
+  KOKKOS_INLINE_FUNCTION static MonomialMeans means(StageFields const (&c)[num_monomials], OverlayMoments const &m)
+  {
+    MonomialMeans out;
+    double w[num_monomials];
+    massMoments(c, m, w);
+    for (int i = 0; i < num_monomials; ++i)
     {
-      double const diagonal = fit.matrix[i][i];
-      for (int j = 0; j <= i; ++j)
-      {
-        double sum = fit.matrix[i][j];
-        for (int k = 0; k < j; ++k)
-          sum -= fit.matrix[i][k] * fit.matrix[j][k];
-        if (j < i)
-          fit.matrix[i][j] = sum / fit.matrix[j][j];
-        else if (!(sum > least_pivot * diagonal))
-          return false;
-        else
-          fit.matrix[i][i] = Math::sqrt(sum);
-      }
+      out.by_volume[i] = m.value[i] / m.volume();
+      out.by_mass[i] = w[i] / w[0];
     }
-    return true;
+    return out;
   }
 
-  KOKKOS_INLINE_FUNCTION static void solve(Fit &fit)
+  /// What a limiter keeps of gradients and Hessians, field by field.
+  struct KeptParts
   {
-    for (int i = 0; i < 5; ++i)
-    {
-      for (int k = 0; k < i; ++k)
-        addTimes(fit.right[i], -fit.matrix[i][k], fit.right[k]);
-      scale(fit.right[i], 1.0 / fit.matrix[i][i]);
-    }
-    for (int i = 4; i >= 0; --i)
-    {
-      for (int k = i + 1; k < 5; ++k)
-        addTimes(fit.right[i], -fit.matrix[k][i], fit.right[k]);
-      scale(fit.right[i], 1.0 / fit.matrix[i][i]);
-    }
-  }
+    FieldPack gradient{1.0}, hessian{1.0};
+  };
 
-  KOKKOS_INLINE_FUNCTION static void scale(StageFields &a, double s)
+  /// The means of all parts stay within range: all of the polynomial is scaled, or the gradient alone where more of
+  /// that is left.
+  KOKKOS_INLINE_FUNCTION static KeptParts partsWithin(Deviations const &all, Deviations const &linear,
+                                                      FieldPack const &q, FieldPack const &lower,
+                                                      FieldPack const &upper)
   {
-    a.record *= FieldPack(s);
-    a.corner *= FieldPack(s);
-  }
-
-  /// Set the coefficients of x .. yy of eight fields, limited, and c[0] so that the mean stays.
-  /// \param m Means of the monomials, with the weights of the fields.
-  KOKKOS_INLINE_FUNCTION static void limit(MovedVertices const &v, bool to_range, FieldPack const (&m)[num_monomials],
-                                           FieldPack const &q, FieldPack const &lower, FieldPack const &upper,
-                                           FieldPack (&c)[num_monomials])
-  {
+    KeptParts kept;
     for (int p = 0; p < FieldPack::parts; ++p)
     {
-      Pack a[num_monomials];
-      for (int i = 1; i < num_monomials; ++i)
-        a[i] = c[i].part[p];
-      if (to_range)
-        limitPart(v, m, p, q.part[p], lower.part[p], upper.part[p], a);
-      Pack shift = 0.0;
-      for (int i = 1; i < num_monomials; ++i)
-      {
-        shift += a[i] * m[i].part[p];
-        c[i].part[p] = a[i];
-      }
-      c[0].part[p] = q.part[p] - shift;
+      Pack const of_all =
+          partWithin<Pack>(all.least.part[p], all.most.part[p], q.part[p], lower.part[p], upper.part[p]);
+      Pack const of_linear =
+          partWithin<Pack>(linear.least.part[p], linear.most.part[p], q.part[p], lower.part[p], upper.part[p]);
+      auto const drop = of_linear > of_all;
+      kept.gradient.part[p] = select(drop, of_linear, of_all);
+      kept.hessian.part[p] = select(drop, Pack(0.0), of_all);
     }
+    return kept;
   }
 
-  /// The largest part, at most all, of deviations between least and most that keeps them within range.
-  KOKKOS_INLINE_FUNCTION static Pack partWithin(Pack const &least, Pack const &most, Pack const &q, Pack const &lower,
-                                                Pack const &upper)
+  /// Limit all fields by the means of the parts, with the density of p.c: in the first call of `polynomial` those of
+  /// the density itself are right.
+  KOKKOS_INLINE_FUNCTION static void limitToRange(OverlayList<OverlayMoments> const &overlays, Polynomial const &p,
+                                                  MonomialMeans const &whole, Gradient const &range,
+                                                  StageFields (&c)[num_monomials])
   {
-    Pack const above = upper - q, below = lower - q;
-    auto const high = most > above;
-    auto const low = below > least;
-    Pack const up = select(high, Pack(above / select(high, most, Pack(1.0))), Pack(1.0));
-    Pack const down = select(low, Pack(below / select(low, least, Pack(1.0))), Pack(1.0));
-    return Math::max(Math::min(up, down), Pack(0.0));
-  }
-
-  /// Bounds of the quadratic over the polygon: its Bezier ordinates for all pairs of vertices. Scaled as a whole, or
-  /// the gradient alone where more of that is left.
-  KOKKOS_INLINE_FUNCTION static void limitPart(MovedVertices const &v, FieldPack const (&m)[num_monomials], int p,
-                                               Pack const &q, Pack const &lower, Pack const &upper,
-                                               Pack (&a)[num_monomials])
-  {
-    Pack const linear = a[1] * m[1].part[p] + a[2] * m[2].part[p];
-    Pack const whole = linear + a[3] * m[3].part[p] + a[4] * m[4].part[p] + a[5] * m[5].part[p];
-    Pack least = 0.0, most = 0.0, least_linear = 0.0, most_linear = 0.0;
-    for (int i = 0; i < v.size; ++i)
+    Deviations record_all, record_linear, corner_all, corner_linear;
+    for (int o = 0; o < overlays.parts(); ++o)
     {
-      Pack const at = Pack(v.x[i]) * a[1] + Pack(v.y[i]) * a[2] - linear;
-      least_linear = Math::min(least_linear, at);
-      most_linear = Math::max(most_linear, at);
-      for (int j = 0; j <= i; ++j)
+      MonomialMeans const part = means(p.c, overlays.fieldMoments(o));
+      FieldPack record(0.0), corner(0.0);
+      for (int i = 1; i < num_monomials; ++i)
       {
-        Pack const both_ends = Pack(0.5 * (v.x[i] + v.x[j])) * a[1] + Pack(0.5 * (v.y[i] + v.y[j])) * a[2] +
-                               Pack(v.x[i] * v.x[j]) * a[3] + Pack(0.5 * (v.x[i] * v.y[j] + v.x[j] * v.y[i])) * a[4] +
-                               Pack(v.y[i] * v.y[j]) * a[5] - whole;
-        least = Math::min(least, both_ends);
-        most = Math::max(most, both_ends);
+        record += c[i].record * (part.ofRecord(i) - whole.ofRecord(i));
+        corner += c[i].corner * (part.ofCorner(i) - whole.ofCorner(i));
+        if (i != 2)
+          continue;
+        record_linear.add(record);
+        corner_linear.add(corner);
       }
+      record_all.add(record);
+      corner_all.add(corner);
     }
-    Pack const of_all = partWithin(least, most, q, lower, upper);
-    Pack const of_linear = partWithin(least_linear, most_linear, q, lower, upper);
-    auto const drop = of_linear > of_all;
-    Pack const s_g = select(drop, of_linear, of_all), s_h = select(drop, Pack(0.0), of_all);
-    a[1] = s_g * a[1];
-    a[2] = s_g * a[2];
-    for (int i = 3; i < num_monomials; ++i)
-      a[i] = s_h * a[i];
+    KeptParts const of_record =
+        partsWithin(record_all, record_linear, p.mean.record, range.lower.record, range.upper.record);
+    KeptParts const of_corner =
+        partsWithin(corner_all, corner_linear, p.mean.corner, range.lower.corner, range.upper.corner);
+    for (int i = 1; i < num_monomials; ++i)
+    {
+      c[i].record *= i < 3 ? of_record.gradient : of_record.hessian;
+      c[i].corner *= i < 3 ? of_corner.gradient : of_corner.hessian;
+    }
+  }
+
+  /// c[0] such that the mean stays.
+  KOKKOS_INLINE_FUNCTION static void keepMean(StageFields const &mean, MonomialMeans const &whole,
+                                              StageFields (&c)[num_monomials])
+  {
+    c[0] = mean;
+    for (int i = 1; i < num_monomials; ++i)
+    {
+      c[0].record -= c[i].record * whole.ofRecord(i);
+      c[0].corner -= c[i].corner * whole.ofCorner(i);
+    }
   }
 
   /// The same-material neighbours of a donor, and the donor itself at the end.
@@ -388,68 +343,44 @@ struct QuadraticFinder : PolynomialFinder
         p.c[i] = stageFields(0.0);
       return;
     }
-    Fit fit;
-    fit.h2 = donors.shape(donor, 0);
-    fit.xx = donors.shape(donor, 3) / fit.h2;
-    fit.xy = donors.shape(donor, 4) / fit.h2;
-    fit.yy = donors.shape(donor, 5) / fit.h2;
-    gather(fit, cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before);
-    bool const fitted = factorise(fit);
-    if (!fitted)
+    QuadraticFit<StageFields> fit(spreadOf(donor), donors.shape(donor, 0));
+    gather(fit, cell, donors.head(donor).material, before);
+    if (!fit.solve())
     {
       p.c[1] = g.x;
       p.c[2] = g.y;
       return;
     }
-    solve(fit);
-    double const per_h = 1.0 / Math::sqrt(fit.h2), per_h2 = 1.0 / fit.h2;
     for (int i = 0; i < 5; ++i)
-    {
-      scale(fit.right[i], i < 2 ? per_h : per_h2);
       p.c[1 + i] = fit.right[i];
-    }
   }
 
-  /// Of a moving donor of `cell`; vertices about its centroid.
-  KOKKOS_INLINE_FUNCTION Polynomial polynomial(int donor, int cell, MovedVertices const &v) const
+  /// Of a moving donor of `cell`.
+  KOKKOS_INLINE_FUNCTION Polynomial polynomial(int donor, int cell, OverlayList<OverlayMoments> const &overlays) const
   {
     Polynomial p = constant(loadStageFields(&donors.value(donor, 0)));
-    StageFields const &q = p.mean;
     Gradient g;
     FaceNeighbours beyond;
-    StageFields const before = donorGradient(donor, cell, q, g, beyond);
+    StageFields const before = donorGradient(donor, cell, p.mean, g, beyond);
     coefficients(donor, cell, before, g, p);
     if (in.options.limiter == RemapLimiter::VanLeer)
       limitVanLeer(beyond, p);
     bool const to_range = limitsToRange(cell);
 
-    // By volume: density for good, and what does not matter of the others.
-    QuarticMoments const whole = wholeMoments(donor, v);
-    FieldPack record[num_monomials], corner[num_monomials], by_volume[num_monomials];
+    // The density first: it weighs the primitives.
+    StageFields c[num_monomials];
     for (int i = 0; i < num_monomials; ++i)
-    {
-      record[i] = p.c[i].record;
-      corner[i] = p.c[i].corner;
-      by_volume[i] = FieldPack(whole.value[i] / whole.volume());
-    }
-    FieldPack density[num_monomials];
+      c[i] = p.c[i];
+    MonomialMeans const by_volume = means(p.c, overlays.whole);
+    if (to_range)
+      limitToRange(overlays, p, by_volume, g, p.c);
+    keepMean(p.mean, by_volume, p.c);
+    MonomialMeans const by_mass = means(p.c, overlays.whole);
+    if (to_range)
+      limitToRange(overlays, p, by_mass, g, c);
+    keepMean(p.mean, by_mass, c);
     for (int i = 0; i < num_monomials; ++i)
-      density[i] = record[i];
-    limit(v, to_range, by_volume, q.record, g.lower.record, g.upper.record, density);
-    for (int i = 0; i < num_monomials; ++i)
-      p.c[i].record = density[i];
-    double w[num_monomials];
-    massMoments(p.c, whole, w);
-    FieldPack of_record[num_monomials], of_corner[num_monomials];
-    for (int i = 0; i < num_monomials; ++i)
-    {
-      of_record[i] = fieldWeights(whole.value[i] / whole.volume(), w[i] / w[0]);
-      of_corner[i] = FieldPack(w[i] / w[0]);
-    }
-    limit(v, to_range, of_record, q.record, g.lower.record, g.upper.record, record);
-    limit(v, to_range, of_corner, q.corner, g.lower.corner, g.upper.corner, corner);
-    for (int i = 0; i < num_monomials; ++i)
-      p.c[i] = {record[i], corner[i]};
+      p.c[i] = c[i];
     return p;
   }
 

@@ -60,6 +60,17 @@ KOKKOS_FORCEINLINE_FUNCTION void addTimes(StageFields &a, double weight, StageFi
   a.corner += w * b.corner;
 }
 
+KOKKOS_FORCEINLINE_FUNCTION void scale(StageFields &a, double factor)
+{
+  scale(a.record, factor);
+  scale(a.corner, factor);
+}
+/// Zero of a type of fields.
+KOKKOS_FORCEINLINE_FUNCTION StageFields zero(StageFields const &)
+{
+  return stageFields(0.0);
+}
+
 /// The values of another cell's corners in the order of one's own, which lag by `rotation`.
 KOKKOS_FORCEINLINE_FUNCTION FieldPack rotatedCorners(double const *corner, int rotation)
 {

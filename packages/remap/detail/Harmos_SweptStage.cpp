@@ -17,18 +17,17 @@ namespace
 
 constexpr int least_chunk = 1024;
 
-/// Largest distance in numbers of face neighbours.
+/// Largest distance in numbers of vertex neighbours.
 int largestStride(Mesh const &mesh)
 {
   int stride = 0;
   Kokkos::parallel_reduce(
       "Harmos::remap::largestStride", RangePolicy(0, mesh.num_cells),
       KOKKOS_LAMBDA(int cell, int &largest) {
-        for (int k = 0; k < 4; ++k)
+        for (int j = mesh.cell_neighbour.offset(cell); j < mesh.cell_neighbour.offset(cell + 1); ++j)
         {
-          int const face = mesh.face_neighbour(cell, k);
-          if (face >= 0)
-            largest = Math::max(largest, face / 4 > cell ? face / 4 - cell : cell - face / 4);
+          int const neighbour = mesh.cell_neighbour.item(j);
+          largest = Math::max(largest, neighbour > cell ? neighbour - cell : cell - neighbour);
         }
       },
       Kokkos::Max<int>(stride));
@@ -90,21 +89,27 @@ SweptWindow sweptWindow(SweptChunks const &chunks)
   return window;
 }
 
+View<double *[4]> sweptSpreads(SweptChunks const &chunks)
+{ return scratch<double *[4]>("sweptSpread", 4 * chunks.chunk); }
+
 SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow const &window,
                        View<double *> const &kinetic_before, View<double *[num_pair_fields]> const &record_after,
                        View<double *> const &kinetic_after, View<double *[2]> const &velocity_after)
-    : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), limiter(in.options.limiter),
-      cell_node(in.mesh.cell_node), face_neighbour(in.mesh.face_neighbour), position(in.start),
-      target(in.mesh.node_position), retargeted(in.retargeted), cell_depth(in.mesh.cell_depth.data()),
-      node_owned(in.mesh.node_owned.data()), first_item(in.mesh.node_cell.offset.data()),
-      item(in.mesh.node_cell.item.data()), node_condition(in.conditions.node_index.data()),
-      condition(in.conditions.condition.data()), first_pair(in.pairs.offset.data()),
-      pair_material(in.pairs.material.data()), first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node),
-      materials(in.materials.data()), record(in.state.record), half(in.half), kinetic(kinetic_before.data()),
-      flags(classes.flags.data()), pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
+    : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), third_order(in.options.order > 2),
+      limiter(in.options.limiter), cell_node(in.mesh.cell_node), face_neighbour(in.mesh.face_neighbour),
+      position(in.start), target(in.mesh.node_position), retargeted(in.retargeted),
+      cell_depth(in.mesh.cell_depth.data()), node_owned(in.mesh.node_owned.data()),
+      first_item(in.mesh.node_cell.offset.data()), item(in.mesh.node_cell.item.data()),
+      first_neighbour(in.mesh.cell_neighbour.offset.data()), neighbour(in.mesh.cell_neighbour.item.data()),
+      node_condition(in.conditions.node_index.data()), condition(in.conditions.condition.data()),
+      first_pair(in.pairs.offset.data()), pair_material(in.pairs.material.data()),
+      first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node), materials(in.materials.data()),
+      record(in.state.record), half(in.half), kinetic(kinetic_before.data()), flags(classes.flags.data()),
+      pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
       node_final(classes.node_final.data()), node_sweep(classes.node_sweep.data()), mask(window.mask),
       cell(window.cell), face_centroid(window.face_centroid), increment(window.increment), flux(window.flux),
-      mass(window.mass.data()), record1(record_after), velocity1(velocity_after), kinetic1(kinetic_after.data())
+      mass(window.mass.data()), spread(window.spread), record1(record_after), velocity1(velocity_after),
+      kinetic1(kinetic_after.data())
 {
 }
 
@@ -117,8 +122,10 @@ SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, int cells)
   {
     if (t < chunks.count)
       sweptGeometry(stage, begin(t), begin(t + 1));
+    if (t < chunks.count && stage.third_order)
+      sweptSpread(stage, begin(t), begin(t + 1));
     if (t >= 1 && t - 1 < chunks.count)
-      sweptFluxes(stage, begin(t - 1), begin(t));
+      (stage.third_order ? sweptQuadraticFluxes : sweptFluxes)(stage, begin(t - 1), begin(t));
     if (t < 2)
       continue;
     sums.kinetic_before += sweptGather(stage, begin(t - 2), begin(t - 1));

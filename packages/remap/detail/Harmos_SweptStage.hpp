@@ -39,11 +39,12 @@ struct SweptWindow
   View<double *[32]> flux;         // outgoing fluxes: face * 8 + field
   View<double *[8]> increment;     // momentum gained by the corners
   View<double *> mass;             // after
+  View<double *[4]> spread;        // order 3: the moved cell's central second moments xx, xy, yy over its volume
 };
 
-/// Order of stage 1: cells in chunks, so large that face neighbours are at most one chunk apart. While the geometry of
-/// chunk t is computed, fluxes follow in t - 1 and the new records in t - 2; then come the nodes whose cells all have
-/// theirs. Four chunks of rows are in use at a time. Devices take all cells as one chunk.
+/// Order of stage 1: cells in chunks, so large that vertex neighbours are at most one chunk apart. While the geometry
+/// of chunk t is computed, fluxes follow in t - 1 and the new records in t - 2; then come the nodes whose cells all
+/// have theirs. Four chunks of rows are in use at a time. Devices take all cells as one chunk.
 struct SweptChunks
 {
   int chunk = 0; // cells, a power of two
@@ -53,8 +54,9 @@ struct SweptChunks
 
 SweptChunks sweptChunks(Mesh const &mesh);
 
-/// Rows for the chunks.
+/// Rows for the chunks; those of order 3 alone are `spreads`.
 SweptWindow sweptWindow(SweptChunks const &chunks);
+View<double *[4]> sweptSpreads(SweptChunks const &chunks);
 
 /// Input and output of stage 1, as the kernels see it: many short launches, which Views would have to be copied for.
 struct SweptStage
@@ -65,7 +67,8 @@ struct SweptStage
 
   Geometry geometry;
   double dt;
-  bool second_order;
+  bool second_order; // or third
+  bool third_order;
   RemapLimiter limiter;
 
   RowPointer<int, 4> cell_node, face_neighbour;
@@ -73,7 +76,8 @@ struct SweptStage
   RowPointer<double, 2> target;   // of the mesh
   bool retargeted;                // these are not the same
   int const *cell_depth, *node_owned;
-  int const *first_item, *item; // mesh.node_cell
+  int const *first_item, *item;           // mesh.node_cell
+  int const *first_neighbour, *neighbour; // mesh.cell_neighbour
   int const *node_condition;
   NodeCondition const *condition;
 
@@ -90,6 +94,7 @@ struct SweptStage
   RowPointer<double, 8> cell, face_centroid, increment; // of the window
   RowPointer<double, 32> flux;
   double *mass;
+  RowPointer<double, 4> spread;
 
   RowPointer<double, num_pair_fields> record1; // after; a copy where nothing flows
   RowPointer<double, 2> velocity1;
@@ -126,6 +131,13 @@ void sweptGeometry(SweptStage const &stage, int begin, int end);
 /// within the range of the cell and its face neighbours: so the new values are means of values within range
 /// (RemapLimiter::Range; the others bound what their names say).
 void sweptFluxes(SweptStage const &stage, int begin, int end);
+
+/// The moved cells' spreads, and fluxes of limited quadratics: fitted over the vertex neighbours of the same material,
+/// without the derivatives that those do not determine (QuadraticFit), integrated over the swept areas exactly by
+/// volume; by mass to third order: the mass centroid of a part with covariance C is C grad rho / rho from its own. One
+/// factor a field and cell limits as sweptFluxes does, to the range of the vertex neighbours. Planar.
+void sweptSpread(SweptStage const &stage, int begin, int end);
+void sweptQuadraticFluxes(SweptStage const &stage, int begin, int end);
 
 /// Records after stage 1, and the momentum that corners gain from the others of their cell by dual mass fluxes.
 ///

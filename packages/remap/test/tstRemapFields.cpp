@@ -163,8 +163,6 @@ TEST(Fields, andTheRemapOfTheCycle_agreeToRoundOff)
   int const n = 24;
   Scene scene = regularToRandom(n, 0.25, sine);
   scene.options.swept_faces = false;
-  scene.options.limiter = RemapLimiter::None;
-  RemapResult const whole = scene.remapped();
   View<double *[2]> const start("start", scene.mesh.num_nodes);
   CellFields const before{View<double **>("before", scene.mesh.num_cells, 1)};
   CellFields const after{View<double **>("after", scene.mesh.num_cells, 1)};
@@ -176,10 +174,15 @@ TEST(Fields, andTheRemapOfTheCycle_agreeToRoundOff)
       for (int d = 0; d < 2; ++d)
         start(scene.mesh.cell_node(cell, k), d) = moved[k][d];
   }
-  FieldWork work;
-  EXPECT_EQ(remapFields(scene.mesh, start, before, after, scene.options, work), 0);
-  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
-    EXPECT_NEAR(after.value(cell, 0), whole.state.record(cell, Mass) / scene.mesh.cell_area(cell), 1e-12);
+  for (RemapLimiter limiter : {RemapLimiter::Range, RemapLimiter::RangeInside, RemapLimiter::None})
+  {
+    scene.options.limiter = limiter;
+    RemapResult const whole = scene.remapped();
+    FieldWork work;
+    EXPECT_EQ(remapFields(scene.mesh, start, before, after, scene.options, work), 0);
+    for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
+      EXPECT_NEAR(after.value(cell, 0), whole.state.record(cell, Mass) / scene.mesh.cell_area(cell), 1e-12);
+  }
 }
 
 TEST(Fields, oneByOneOrTogether_haveTheSameBits)

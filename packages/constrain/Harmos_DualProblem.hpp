@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_DUAL_PROBLEM_HPP
+#define HARMOS_DUAL_PROBLEM_HPP
+
+#include <Harmos_ContactSystem.hpp>
+#include <Harmos_SkylineCholesky.hpp>
+
+namespace Harmos
+{
+
+/// What a direction of a row adds to a free body's motion.
+struct BodyEntry
+{
+  int unknown;
+  int component;   // 3 * compact number of the body + (Vx, Vy, omega)
+  double jacobian; // scaled
+};
+
+/// \brief The contact problem of all ranks' rows as one sparse matrix on the host, the same bits on every rank.
+///
+/// Unknowns x = sqrt(D) p, one for each direction of a row, D the row sums of ContactSystem; x^T A x / 2 + b . x over
+/// low <= x <= high, A = D^-1/2 G M^-1 P G^T D^-1/2. The rows follow each other along the interfaces
+/// (reverse Cuthill-McKee), so that the deformable part of A is a narrow band; free bodies are applied beside it.
+struct DualProblem
+{
+  LowerTriangle matrix;            // deformable part
+  std::vector<BodyEntry> body;     // by unknown
+  std::vector<double> body_weight; // by component: its inverse mass
+  std::vector<double> b;           // b of the rows over sqrt(D) [m/s sqrt(kg/m)]
+  std::vector<double> root;        // sqrt(D)
+  std::vector<char> tied;
+  std::vector<int> normal_of;   // across n with friction: the unknown along n of the same row; else -1
+  std::vector<double> friction; // there: largest |x| over the x along n
+  std::vector<int> first;       // by row of this rank (halo's included): its first unknown, -1: none
+
+  int size() const { return static_cast<int>(b.size()); }
+
+  /// out = A x, free bodies included
+  void multiply(std::vector<double> const &x, std::vector<double> &out) const;
+
+  /// Sum of the diagonal of the free bodies' part: with one added a bound of the norm of A.
+  double bodyTrace() const;
+};
+
+/// Collective: every rank gets the rows of all.
+DualProblem assembleDualProblem(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange);
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ProjectedNewton.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Harmos
+{
+
+namespace
+{
+
+using Vector = std::vector<double>;
+
+double dot(Vector const &a, Vector const &b)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+class Newton
+{
+public:
+  Newton(DualProblem const &problem, double enough, int max_iterations)
+      : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), reach_(n_, 0.0),
+        x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace()))
+  {
+  }
+
+  /// Every round counts at least one iteration, so that it ends.
+  DualSolution solve()
+  {
+    while (iterations_ < max_iterations_)
+    {
+      moveReach();
+      gradient(x_, g_);
+      double const reached = violation();
+      if (reached <= enough_)
+        break;
+      start_ = start_ > 0.0 ? start_ : reached;
+      shift_ = std::max(0.01 * (reached / start_) * (reached / start_), 1e-13);
+      chooseFree();
+      if (!descend())
+        safeStep();
+    }
+    return {x_, iterations_};
+  }
+
+private:
+  ImpulseBounds bounds(int i) const
+  {
+    constexpr double none = 1.0e300;
+    if (problem_.tied[i])
+      return {-none, none};
+    return problem_.normal_of[i] < 0 ? ImpulseBounds{0.0, none} : ImpulseBounds{-reach_[i], reach_[i]};
+  }
+
+  void gradient(Vector const &x, Vector &out) const
+  {
+    problem_.multiply(x, out);
+    for (int i = 0; i < n_; ++i)
+      out[i] += problem_.b[i];
+  }
+
+  /// Friction's bounds from the impulses along n. Impulses at a bound that their gradient presses on stay at it.
+  void moveReach()
+  {
+    for (int i = 0; i < n_; ++i)
+    {
+      if (problem_.normal_of[i] < 0)
+        continue;
+      double const before = reach_[i];
+      reach_[i] = problem_.friction[i] * x_[problem_.normal_of[i]];
+      bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
+      x_[i] = slides ? (g_[i] < 0.0 ? reach_[i] : -reach_[i]) : bounds(i).clip(x_[i]);
+    }
+  }
+
+  double violation() const
+  {
+    double largest = 0.0;
+    for (int i = 0; i < n_; ++i)
+      largest = std::max(largest, problem_.root[i] * bounds(i).violation(x_[i], g_[i]));
+    return largest;
+  }
+
+  /// Unknowns near a bound that their gradient presses on are held as if they were at it: else a path that is bent by
+  /// one of them soon need not descend.
+  void chooseFree()
+  {
+    double projected = 0.0;
+    for (int i = 0; i < n_; ++i)
+      projected = std::max(projected, std::fabs(x_[i] - bounds(i).clip(x_[i] - g_[i])));
+    for (int i = 0; i < n_; ++i)
+    {
+      ImpulseBounds const limit = bounds(i);
+      bool const held = limit.low >= limit.high || (g_[i] > 0.0 && x_[i] - limit.low <= projected) ||
+                        (g_[i] < 0.0 && limit.high - x_[i] <= projected);
+      free_[i] = held ? 0 : 1;
+    }
+  }
+
+  /// Solves (A + shift) d = -g for the free unknowns; d = -g for the held ones.
+  ///
+  /// Dependent rows give A eigenvalues down to nothing, along which a step without a shift is 1e6 times the impulses.
+  /// A residual that closing velocities w have left is sqrt(eigenvalue) w along an eigenvector: what has been reached
+  /// squared is the eigenvalue that matters next.
+  Vector newtonStep()
+  {
+    constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose row sums are at most one
+    constexpr int most = 30;
+    factor_.factor(problem_.matrix, free_, shift_, least);
+    Vector step(n_, 0.0), residual(n_, 0.0), z, direction(n_, 0.0), product;
+    for (int i = 0; i < n_; ++i)
+      residual[i] = free_[i] ? -g_[i] : 0.0;
+    double before = 0.0;
+    double const good = std::max(0.01 * largest(residual), 0.1 * enough_);
+    for (int k = 0; k < most && iterations_ < max_iterations_ && largest(residual) > good; ++k)
+    {
+      z = residual;
+      factor_.solve(z);
+      ++iterations_;
+      double const now = dot(residual, z);
+      for (int i = 0; i < n_; ++i)
+        direction[i] = z[i] + (k > 0 ? now / before * direction[i] : 0.0);
+      problem_.multiply(direction, product);
+      for (int i = 0; i < n_; ++i)
+        product[i] += shift_ * direction[i];
+      double const curvature = dot(direction, product);
+      if (!(curvature > 0.0))
+        break;
+      for (int i = 0; i < n_; ++i)
+        if (free_[i])
+        {
+          step[i] += now / curvature * direction[i];
+          residual[i] -= now / curvature * product[i];
+        }
+      before = now;
+    }
+    for (int i = 0; i < n_; ++i)
+      if (!free_[i])
+        step[i] = -g_[i];
+    return step;
+  }
+
+  /// Newton steps on a set of free unknowns that shrinks by those which stop the step. \return False: nothing moved,
+  /// or the free unknowns had nothing left to gain.
+  bool descend()
+  {
+    bool moved = false;
+    while (iterations_ < max_iterations_)
+    {
+      int const before = iterations_;
+      Vector const step = newtonStep();
+      if (iterations_ == before)
+        return false;
+      if (followPath(step))
+        return true;
+      double const part = stepToBound(step);
+      moved = moved || part > 0.0;
+      if (part >= 1.0 || std::none_of(free_.begin(), free_.end(), [](char f) { return f != 0; }))
+        return moved;
+    }
+    return moved;
+  }
+
+  /// Along the projected path x(alpha) = bounds(x + alpha step), where it descends.
+  bool followPath(Vector const &step)
+  {
+    constexpr double part = 1e-4; // of the descent that the gradient promises
+    Vector change(n_), product;
+    for (double alpha = 1.0; alpha > 0.1; alpha *= 0.5)
+    {
+      double promised = 0.0;
+      for (int i = 0; i < n_; ++i)
+      {
+        change[i] = bounds(i).clip(x_[i] + alpha * step[i]) - x_[i];
+        promised += g_[i] * change[i];
+      }
+      problem_.multiply(change, product);
+      if (promised < 0.0 && promised + 0.5 * dot(change, product) <= part * promised)
+      {
+        for (int i = 0; i < n_; ++i)
+          x_[i] += change[i];
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Move the free unknowns until the first of them meets a bound; what does is free no longer.
+  /// \return The part of the step that was taken.
+  double stepToBound(Vector const &step)
+  {
+    Vector limit(n_, 1e300);
+    double part = 1.0;
+    for (int i = 0; i < n_; ++i)
+    {
+      ImpulseBounds const b = bounds(i);
+      if (!free_[i] || step[i] == 0.0)
+        continue;
+      limit[i] = ((step[i] > 0.0 ? b.high : b.low) - x_[i]) / step[i];
+      part = std::min(part, limit[i]);
+    }
+    Vector change(n_, 0.0), product;
+    for (int i = 0; i < n_; ++i)
+    {
+      if (!free_[i])
+        continue;
+      double const to = bounds(i).clip(x_[i] + part * step[i]);
+      change[i] = to - x_[i];
+      x_[i] = to;
+      if (limit[i] <= part)
+        x_[i] = step[i] > 0.0 ? bounds(i).high : bounds(i).low;
+      free_[i] = limit[i] <= part ? 0 : 1;
+    }
+    problem_.multiply(change, product);
+    for (int i = 0; i < n_; ++i)
+      g_[i] += product[i];
+    return part;
+  }
+
+  void safeStep()
+  {
+    ++iterations_;
+    for (int i = 0; i < n_; ++i)
+      x_[i] = bounds(i).clip(x_[i] - safe_step_ * g_[i]);
+  }
+
+  double largest(Vector const &v) const
+  {
+    double most = 0.0;
+    for (int i = 0; i < n_; ++i)
+      most = std::max(most, problem_.root[i] * std::fabs(v[i]));
+    return most;
+  }
+
+  DualProblem const &problem_;
+  double const enough_;
+  int const max_iterations_;
+  int const n_;
+  Vector reach_;
+  Vector x_, g_;
+  std::vector<char> free_;
+  double const safe_step_;
+  double start_ = 0.0, shift_ = 0.0;
+  SkylineCholesky factor_;
+  int iterations_ = 0;
+};
+
+} // namespace
+
+DualSolution projectedNewton(DualProblem const &problem, double enough, int max_iterations)
+{
+  return Newton(problem, enough, max_iterations).solve();
+}
+
+} // namespace Harmos

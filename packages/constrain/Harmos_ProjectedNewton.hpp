@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_PROJECTED_NEWTON_HPP
+#define HARMOS_PROJECTED_NEWTON_HPP
+
+#include <Harmos_DualProblem.hpp>
+
+namespace Harmos
+{
+
+struct DualSolution
+{
+  std::vector<double> x;
+  int iterations = 0; // solves with a Cholesky factor
+};
+
+/// \brief Minimise x^T A x / 2 + b . x over low <= x <= high by Newton steps that are projected onto the bounds.
+///
+/// Each step solves for the unknowns that are free, or at a bound that their gradient leads away from, and follows its
+/// projected path where that descends, else goes to the first bound that it meets and is made anew without the unknown
+/// that met it. The system, A plus a shift that falls with the square of the residual (Levenberg-Marquardt), is solved
+/// by conjugate gradients preconditioned by its Cholesky factor without the free bodies: one iteration, and a few more
+/// for each body. Friction's bounds follow the impulses along n from step to
+/// step.
+///
+/// \param enough Of the residual sqrt(D) (A x + b), as ImpulseBounds::violation measures it. [m/s]
+/// Bertsekas, SIAM J. Control Optim. 20 (1982) 221-246.
+DualSolution projectedNewton(DualProblem const &problem, double enough, int max_iterations);
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_OVERLAY_LIST_HPP
+#define HARMOS_OVERLAY_LIST_HPP
+
+#include <detail/Harmos_NeighbourLinks.hpp>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+/// Overlays below this part of their donor get its mean: their centroids are round-off.
+constexpr double least_part = 1e-12;
+
+/// The overlays of a donor, with moments M about its centroid.
+template <class M>
+struct OverlayList
+{
+  M whole; // of the donor
+  int size = 0;
+  int slot[most_slots], acceptor[most_slots];
+  M moments[most_slots + 1]; // at `size`: what the overlays leave
+  bool has_rest = false;     // that is more than round-off
+
+  KOKKOS_INLINE_FUNCTION void add(int its_slot, int its_acceptor, M const &m)
+  {
+    slot[size] = its_slot;
+    acceptor[size] = its_acceptor;
+    moments[size++] = m;
+  }
+
+  KOKKOS_INLINE_FUNCTION void setRest()
+  {
+    M &rest = moments[size];
+    rest = whole;
+    for (int o = 0; o < size; ++o)
+      for (int i = 0; i < M::count; ++i)
+        rest.value[i] -= moments[o].value[i];
+    has_rest = rest.volume() > least_part * whole.volume();
+  }
+
+  /// Parts of the donor whose means are bounded: the overlays, and the rest where there is one.
+  KOKKOS_INLINE_FUNCTION int parts() const { return has_rest ? size + 1 : size; }
+
+  /// The moments that the donor's polynomials are integrated with over a part.
+  KOKKOS_INLINE_FUNCTION M fieldMoments(int part) const
+  {
+    M m = moments[part];
+    if (m.volume() > least_part * whole.volume())
+      return m;
+    double const scale = m.volume() / whole.volume();
+    for (int i = 0; i < M::count; ++i)
+      m.value[i] = scale * whole.value[i];
+    return m;
+  }
+};
+
+} // namespace RemapDetail
+} // namespace Harmos
+
+#endif

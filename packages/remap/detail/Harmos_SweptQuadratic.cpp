@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <detail/Harmos_DonorPolynomial.hpp>
+#include <detail/Harmos_QuadraticFit.hpp>
+#include <detail/Harmos_SweptStage.hpp>
+
+namespace Harmos
+{
+namespace RemapDetail
+{
+
+namespace
+{
+
+/// A pure cell with all nodes moved, and where stage 1 takes them.
+struct SweptCorners
+{
+  Vector2 moved[4], home[4];
+};
+
+KOKKOS_INLINE_FUNCTION SweptCorners sweptCorners(SweptStage const &stage, int cell)
+{
+  SweptCorners c;
+  int const pair = stage.first_pair[cell];
+  for (int k = 0; k < 4; ++k)
+  {
+    int const node = stage.cell_node(cell, k), dof = stage.dof_node(pair, k);
+    Vector2 const x{stage.position(node, 0), stage.position(node, 1)};
+    c.moved[k] = x + stage.dt * Vector2{stage.half(dof, 0), stage.half(dof, 1)};
+    bool const swept = (stage.flags[cell] & SweptCornerBit << k) != 0;
+    Vector2 const home = stage.retargeted ? Vector2{stage.target(node, 0), stage.target(node, 1)} : x;
+    c.home[k] = swept ? home : c.moved[k];
+  }
+  return c;
+}
+
+KOKKOS_INLINE_FUNCTION void addSquare(double weight, Vector2 const &x, double (&second)[3])
+{
+  second[0] += weight * x[0] * x[0];
+  second[1] += weight * x[0] * x[1];
+  second[2] += weight * x[1] * x[1];
+}
+
+/// Central second moments over the volume; of the signed area where edges cross.
+KOKKOS_INLINE_FUNCTION void spreadOfQuadrilateral(Quadrilateral const &q, Vector2 const &centroid, double volume,
+                                                  double (&second)[3])
+{
+  Moments<2> const m = moments<2>(q, centroid);
+  second[0] = m.second(0, 0) / volume;
+  second[1] = m.second(0, 1) / volume;
+  second[2] = m.second(1, 1) / volume;
+}
+
+/// Covariance of what face k sweeps out of the cell, whose volume and centroid are known: the quadrilateral between the
+/// face before and after, or one of two triangles where these cross, with the end that goes out and the crossing as
+/// corners.
+KOKKOS_INLINE_FUNCTION Spread spreadOfSwept(SweptCorners const &c, int k, double volume, Vector2 const &centroid)
+{
+  int const l = (k + 1) % 4;
+  Spread s{centroid, {}};
+  Quadrilateral q;
+  q.size = 4;
+  q[0] = c.home[k];
+  q[1] = c.home[l];
+  q[2] = c.moved[l];
+  q[3] = c.moved[k];
+  Vector2 const edge = 0.5 * ((c.moved[l] + c.home[l]) - (c.moved[k] + c.home[k]));
+  double const at_k = cross(c.moved[k] - c.home[k], edge), at_l = cross(c.moved[l] - c.home[l], edge);
+  if (at_k * at_l < 0.0)
+  {
+    int const out = at_k > 0.0 ? k : l;
+    Vector2 const a = c.moved[out], b = c.home[out], p = 3.0 * centroid - (a + b);
+    double const triangle = 0.5 * Math::fabs(cross(a - p, b - p));
+    if (Math::fabs(triangle - volume) < 1e-6 * volume)
+    {
+      for (Vector2 const &corner : {a, b, p})
+        addSquare(1.0 / 12.0, corner - centroid, s.second);
+      return s;
+    }
+  }
+  double const area = 0.5 * (at_k + at_l);
+  spreadOfQuadrilateral(q, centroid, area > 0.0 ? -area : area, s.second);
+  return s;
+}
+
+struct SweptSpreadFunctor
+{
+  SweptStage stage;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int cell) const
+  {
+    if ((stage.flags[cell] & PureCellBit) == 0)
+      return;
+    SweptCorners const c = sweptCorners(stage, cell);
+    Quadrilateral q;
+    q.size = 4;
+    for (int k = 0; k < 4; ++k)
+      q[k] = c.moved[k];
+    double const *row = stage.cellRow(cell);
+    double second[3];
+    spreadOfQuadrilateral(q, {row[CentroidX], row[CentroidY]}, row[MovedVolume], second);
+    for (int i = 0; i < 3; ++i)
+      stage.spread(cell & stage.mask, i) = second[i];
+  }
+};
+
+/// Means of the monomials x, y, xx, xy, yy from a centroid, over a region.
+struct FiveMeans
+{
+  double value[5];
+};
+
+KOKKOS_INLINE_FUNCTION FiveMeans fiveMeans(Spread const &s, Vector2 const &from)
+{
+  Vector2 const d = s.centroid - from;
+  return {{d[0], d[1], s.second[0] + d[0] * d[0], s.second[1] + d[0] * d[1], s.second[2] + d[1] * d[1]}};
+}
+
+struct SweptQuadraticFunctor
+{
+  SweptStage stage;
+
+  /// A cell that loses material.
+  struct Donor
+  {
+    int cell, pair;
+    Spread spread;
+    FieldPack q, lower, upper;
+    FieldPack coefficient[5];
+    double volume, density;
+    double swept_volume[4], swept_mass[4];
+    Spread swept[4];
+    FieldPack deviation[4]; // of the means over the swept areas
+  };
+
+  KOKKOS_INLINE_FUNCTION Spread spreadOf(int cell) const
+  {
+    double const *row = stage.cellRow(cell), *second = stage.spread.row(cell & stage.mask);
+    return {{row[CentroidX], row[CentroidY]}, {second[0], second[1], second[2]}};
+  }
+
+  KOKKOS_INLINE_FUNCTION FieldPack valueOf(int cell) const
+  {
+    int const pair = stage.first_pair[cell];
+    FieldPack q(stage.record.row(pair));
+    q.set<DensityField>(stage.cellRow(cell)[MovedDensity]);
+    if (stage.carries())
+      q.set<KineticField>(stage.kinetic[pair]);
+    return q;
+  }
+
+  KOKKOS_INLINE_FUNCTION void fit(Donor &d) const
+  {
+    QuadraticFit<FieldPack> fit(d.spread, d.volume);
+    d.lower = d.upper = d.q;
+    for (int j = stage.first_neighbour[d.cell]; j < stage.first_neighbour[d.cell + 1]; ++j)
+    {
+      int const neighbour = stage.neighbour[j];
+      if ((stage.flags[neighbour] & PureCellBit) == 0 || stage.pure_material[neighbour] != stage.pure_material[d.cell])
+        continue;
+      FieldPack const value = valueOf(neighbour);
+      d.lower = lesser(d.lower, value);
+      d.upper = greater(d.upper, value);
+      fit.add(spreadOf(neighbour), 1.0, value - d.q);
+    }
+    bool const fitted = fit.solve();
+    for (int i = 0; i < 5; ++i)
+      d.coefficient[i] = fitted ? fit.right[i] : FieldPack(0.0);
+  }
+
+  /// Deviations by volume (then the density's are right), or by volume and mass.
+  KOKKOS_INLINE_FUNCTION static void deviate(Donor &d, Vector2 const &slope, bool by_mass)
+  {
+    FiveMeans const whole = fiveMeans(d.spread, d.spread.centroid);
+    for (int k = 0; k < 4; ++k)
+    {
+      d.deviation[k] = FieldPack(0.0);
+      if (!(d.swept_volume[k] > 0.0))
+        continue;
+      FiveMeans const part = fiveMeans(d.swept[k], d.spread.centroid);
+      Vector2 shift{0.0, 0.0};
+      if (by_mass)
+        shift =
+            massOffset(d.swept[k], slope, d.swept_mass[k] / d.swept_volume[k]) - massOffset(d.spread, slope, d.density);
+      for (int i = 0; i < 5; ++i)
+      {
+        double const mean = part.value[i] - whole.value[i];
+        d.deviation[k] += d.coefficient[i] * fieldWeights(mean, i < 2 ? mean + shift[i] : mean);
+      }
+    }
+  }
+
+  /// The mass centroid from the centroid.
+  KOKKOS_INLINE_FUNCTION static Vector2 massOffset(Spread const &s, Vector2 const &slope, double density)
+  {
+    double const per_density = 1.0 / density;
+    return {per_density * (s.second[0] * slope[0] + s.second[1] * slope[1]),
+            per_density * (s.second[1] * slope[0] + s.second[2] * slope[1])};
+  }
+
+  /// The part of the deviations that the limiter leaves. \param staying Volume and mass that stay.
+  KOKKOS_INLINE_FUNCTION FieldPack kept(Donor const &d, double staying_volume, double staying_mass) const
+  {
+    RemapLimiter const limiter = stage.limiter;
+    if (limiter == RemapLimiter::None || (limiter == RemapLimiter::RangeInside && isAtBoundary(d.cell)))
+      return FieldPack(1.0);
+    if (limiter == RemapLimiter::VanLeer)
+      return vanLeer(d);
+    PolynomialFinder::Deviations bounds;
+    FieldPack left(0.0);
+    for (int k = 0; k < 4; ++k)
+    {
+      bounds.add(d.deviation[k]);
+      left -= fieldWeights(d.swept_volume[k], d.swept_mass[k]) * d.deviation[k];
+    }
+    // Where all of a cell leaves, no mean of what stays bounds anything (largestSweptPart).
+    bounds.add(left * fieldWeights(staying_volume > 0.0 ? 1.0 / staying_volume : 0.0,
+                                   staying_mass > 0.0 ? 1.0 / staying_mass : 0.0));
+    FieldPack part;
+    for (int p = 0; p < FieldPack::parts; ++p)
+      part.part[p] =
+          partWithin<Pack>(bounds.least.part[p], bounds.most.part[p], d.q.part[p], d.lower.part[p], d.upper.part[p]);
+    return part;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool isAtBoundary(int cell) const
+  {
+    constexpr int all_neighbours = 15 * NeighbourBit;
+    return (stage.flags[cell] & all_neighbours) != all_neighbours;
+  }
+
+  KOKKOS_INLINE_FUNCTION FieldPack vanLeer(Donor const &d) const
+  {
+    PolynomialFinder::FaceNeighbours beyond;
+    for (int k = 0; k < 4; ++k)
+    {
+      if ((stage.flags[d.cell] & SameBeyondBit << k) == 0)
+        continue;
+      int const neighbour = stage.face_neighbour(d.cell, k) >> 2;
+      beyond.offset[beyond.size] = spreadOf(neighbour).centroid - d.spread.centroid;
+      beyond.difference[beyond.size++] = {valueOf(neighbour) - d.q, FieldPack(0.0)};
+    }
+    FieldPack part;
+    for (int p = 0; p < FieldPack::parts; ++p)
+      part.part[p] =
+          PolynomialFinder::vanLeerPart(beyond, false, p, d.coefficient[0].part[p], d.coefficient[1].part[p]);
+    return part;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int cell) const
+  {
+    double const *row = stage.cellRow(cell);
+    if ((stage.flags[cell] & all_swept_corners) == 0 ||
+        !(row[SweptVolume] + row[SweptVolume + 1] + row[SweptVolume + 2] + row[SweptVolume + 3] > 0.0))
+      return;
+    Donor d;
+    d.cell = cell;
+    d.pair = stage.first_pair[cell];
+    d.spread = spreadOf(cell);
+    d.volume = row[MovedVolume];
+    d.density = row[MovedDensity];
+    d.q = valueOf(cell);
+    SweptCorners const corners = sweptCorners(stage, cell);
+    double staying_volume = d.volume;
+    for (int k = 0; k < 4; ++k)
+    {
+      d.swept_volume[k] = Math::max(row[SweptVolume + k], 0.0);
+      d.swept_mass[k] = 0.0;
+      staying_volume -= d.swept_volume[k];
+      Vector2 const offset{stage.centroidRow(cell)[2 * k], stage.centroidRow(cell)[2 * k + 1]};
+      if (d.swept_volume[k] > 0.0)
+        d.swept[k] = spreadOfSwept(corners, k, d.swept_volume[k], d.spread.centroid + offset);
+    }
+    fit(d);
+
+    // Density first: it gives the mass fluxes that weigh the primitives.
+    deviate(d, {0.0, 0.0}, false);
+    double const part = kept(d, staying_volume, 0.0)[DensityField];
+    double staying_mass = d.volume * d.density;
+    for (int k = 0; k < 4; ++k)
+    {
+      d.swept_mass[k] = d.swept_volume[k] * (d.density + part * d.deviation[k][DensityField]);
+      staying_mass -= d.swept_mass[k];
+    }
+    deviate(d, part * Vector2{d.coefficient[0][DensityField], d.coefficient[1][DensityField]}, true);
+    FieldPack const all = kept(d, staying_volume, staying_mass);
+    for (int k = 0; k < 4; ++k)
+    {
+      if (!(d.swept_volume[k] > 0.0))
+        continue;
+      FieldPack flux = fieldWeights(d.swept_volume[k], d.swept_mass[k]) * (d.q + all * d.deviation[k]);
+      flux.set<DensityField>(d.swept_mass[k]);
+      flux.store(stage.fluxRow(cell, k));
+    }
+  }
+};
+
+} // namespace
+
+void sweptSpread(SweptStage const &stage, int begin, int end)
+{
+  Kokkos::parallel_for("Harmos::remap::sweptSpread", RangePolicy(begin, end), SweptSpreadFunctor{stage});
+}
+
+void sweptQuadraticFluxes(SweptStage const &stage, int begin, int end)
+{
+  Kokkos::parallel_for("Harmos::remap::sweptQuadraticFluxes", RangePolicy(begin, end), SweptQuadraticFunctor{stage});
+}
+
+} // namespace RemapDetail
+} // namespace Harmos
