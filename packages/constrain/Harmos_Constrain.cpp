@@ -147,7 +147,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   MultiplierSolution const solution =
       is_explicit ? explicitImpulses({mesh, pairs, velocity_n, buildBodyTable(bodies_n, num_materials), pair_stress},
                                      system, rows, dt, options, exchange)
-                  : solveMultipliers(system, rows, dt, options, exchange);
+                  : solveMultipliers(mesh, system, rows, dt, options, exchange);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;

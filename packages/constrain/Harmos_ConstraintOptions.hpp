@@ -45,8 +45,9 @@ enum class ConstraintMethod : int
 enum class Placement : int
 {
   Midpoint,
-  GaussPoints, // two
-  SegmentEnds  // two
+  GaussPoints,  // two
+  SegmentEnds,  // two
+  VitalVertices // one for each vital cell edge that the interface crosses, shared by the segments around it
 };
 
 struct ConstraintOptions

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DualProblem.hpp>
+#include <Harmos_DualRows.hpp>
+#include <Harmos_VitalVertices.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -10,171 +13,6 @@ namespace Harmos
 
 namespace
 {
-
-/// A row without its couplings.
-struct DualRow
-{
-  double directions, tied, friction;
-  double predicted[2], diagonal[2];
-  double body[2];        // compact numbers
-  double jacobian[2][6]; // by direction: of side a's body, of side b's
-};
-
-/// Part of the coupling of a row to one that is not behind it in the order of keys, by one dof node.
-struct DualBlock
-{
-  double value[2][2]; // by direction of the row, of the other row
-};
-
-/// Rows with their couplings, in the order of keys.
-struct DualRows
-{
-  std::vector<long long> key;
-  std::vector<DualRow> row;
-  std::vector<long long> count; // blocks of a row
-  std::vector<long long> other; // key of the other row of a block
-  std::vector<DualBlock> block;
-};
-
-/// visit(other row, block) for each shared dof of an own row and each row before it, and for the row itself.
-template <class Visitor>
-KOKKOS_INLINE_FUNCTION void forEachBlock(ContactSystem const &s, int row, Visitor const &visit)
-{
-  for (int c = 0; c < 8; ++c)
-  {
-    int const dof = s.dof(row, c);
-    if (dof < 0)
-      continue;
-    double const scale = s.inverse_mass(dof) * s.weight(row, c);
-    for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
-    {
-      int const other = s.rows_of.item(e) / 8;
-      if (other > row)
-        break;
-      double const w = scale * s.weight(other, s.rows_of.item(e) % 8);
-      DualBlock block = {};
-      for (int k = 0; k < s.directions(row); ++k)
-      {
-        Vector2 const u = w * s.condition(dof).project(s.direction(row, k));
-        for (int l = 0; l < s.directions(other); ++l)
-          block.value[k][l] = dot(u, s.direction(other, l));
-      }
-      visit(other, block);
-    }
-  }
-}
-
-KOKKOS_INLINE_FUNCTION DualRow dualRow(ContactSystem const &s, int row)
-{
-  DualRow d = {};
-  d.directions = s.directions(row);
-  d.tied = s.tied(row);
-  d.friction = s.friction(row);
-  for (int side = 0; side < 2; ++side)
-    d.body[side] = s.free_body(row, side);
-  for (int k = 0; k < s.directions(row); ++k)
-  {
-    d.predicted[k] = s.predicted(row, k);
-    d.diagonal[k] = s.diagonal(row, k);
-    for (int side = 0; side < 2; ++side)
-      for (int c = 0; s.free_body(row, side) >= 0 && c < 3; ++c)
-        d.jacobian[k][3 * side + c] = s.bodyJacobian(row, side, k, c);
-  }
-  return d;
-}
-
-template <class T>
-std::vector<T> toHost(View<T *> const &view)
-{
-  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-  return std::vector<T>(host.data(), host.data() + host.extent(0));
-}
-
-View<long long *> keysOf(ContactRows const &rows)
-{
-  View<long long *> const key(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::key"), rows.count);
-  View<ContactRow *> const row = rows.row;
-  Kokkos::parallel_for(
-      "Harmos::constrain::keysOf", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) { key(i) = row(i).key; });
-  return key;
-}
-
-/// This rank's own rows.
-DualRows ownRows(ContactSystem const &s, View<long long *> const &key)
-{
-  View<DualRow *> const row("Harmos::constrain::dual_row", s.num_own);
-  View<long long *> const own_key("Harmos::constrain::own_key", s.num_own);
-  View<long long *> const count("Harmos::constrain::block_count", s.num_own);
-  View<int *> const offset("Harmos::constrain::block_offset", s.num_own);
-  int total = 0;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::countBlocks", RangePolicy(0, s.num_own),
-      KOKKOS_LAMBDA(int i, int &sum, bool final) {
-        int blocks = 0;
-        forEachBlock(s, s.own(i), [&](int, DualBlock const &) { ++blocks; });
-        if (final)
-        {
-          row(i) = dualRow(s, s.own(i));
-          own_key(i) = key(s.own(i));
-          count(i) = blocks;
-          offset(i) = sum;
-        }
-        sum += blocks;
-      },
-      total);
-  View<DualBlock *> const block(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::block"), total);
-  View<long long *> const other(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::other"), total);
-  Kokkos::parallel_for(
-      "Harmos::constrain::fillBlocks", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
-        int at = offset(i);
-        forEachBlock(s, s.own(i),
-                     [&](int other_row, DualBlock const &b)
-                     {
-                       other(at) = key(other_row);
-                       block(at++) = b;
-                     });
-      });
-  return {toHost(own_key), toHost(row), toHost(count), toHost(other), toHost(block)};
-}
-
-/// The items of all ranks, in the order of ranks. T: made of `Part`s.
-template <class Part, class T>
-std::vector<T> gathered(std::vector<T> const &mine, Exchange const &exchange)
-{
-  std::vector<long long> count(static_cast<std::size_t>(exchange.size()), 0);
-  count[static_cast<std::size_t>(exchange.rank())] = static_cast<long long>(mine.size());
-  exchange.sum(count.data(), exchange.size());
-  auto const here = count.begin() + exchange.rank();
-  std::vector<T> all(static_cast<std::size_t>(std::accumulate(count.begin(), count.end(), 0LL)), T{});
-  std::copy(mine.begin(), mine.end(), all.begin() + std::accumulate(count.begin(), here, 0LL));
-  exchange.sum(reinterpret_cast<Part *>(all.data()), static_cast<int>(all.size() * (sizeof(T) / sizeof(Part))));
-  return all;
-}
-
-/// The rows of all ranks in the order of keys.
-DualRows allRows(DualRows const &own, Exchange const &exchange)
-{
-  if (exchange.size() == 1)
-    return own;
-  DualRows const all{gathered<long long>(own.key, exchange), gathered<double>(own.row, exchange),
-                     gathered<long long>(own.count, exchange), gathered<long long>(own.other, exchange),
-                     gathered<double>(own.block, exchange)};
-  std::vector<long long> begin(all.count.size() + 1, 0);
-  std::partial_sum(all.count.begin(), all.count.end(), begin.begin() + 1);
-  std::vector<int> order(all.key.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return all.key[a] < all.key[b]; });
-  DualRows sorted;
-  for (int const i : order)
-  {
-    sorted.key.push_back(all.key[i]);
-    sorted.row.push_back(all.row[i]);
-    sorted.count.push_back(all.count[i]);
-    sorted.other.insert(sorted.other.end(), all.other.begin() + begin[i], all.other.begin() + begin[i + 1]);
-    sorted.block.insert(sorted.block.end(), all.block.begin() + begin[i], all.block.begin() + begin[i + 1]);
-  }
-  return sorted;
-}
 
 int placeOf(std::vector<long long> const &key, long long wanted)
 {
@@ -239,16 +77,35 @@ std::vector<int> orderRows(BlockMatrix const &m)
   return reverseCuthillMcKee(offset, item);
 }
 
+struct MatrixEntry
+{
+  int row, column;
+  double value;
+};
+
+LowerTriangle byRows(std::vector<MatrixEntry> const &entry, std::size_t size)
+{
+  LowerTriangle matrix;
+  matrix.offset.assign(size + 1, 0);
+  for (MatrixEntry const &x : entry)
+    ++matrix.offset[x.row + 1];
+  std::partial_sum(matrix.offset.begin(), matrix.offset.end(), matrix.offset.begin());
+  std::vector<int> next(matrix.offset.begin(), matrix.offset.end() - 1);
+  matrix.column.resize(entry.size());
+  matrix.value.resize(entry.size());
+  for (MatrixEntry const &x : entry)
+  {
+    matrix.column[next[x.row]] = x.column;
+    matrix.value[next[x.row]++] = x.value;
+  }
+  return matrix;
+}
+
 /// Scaled entries of the matrix, each in the row of its later unknown.
 LowerTriangle scalarMatrix(BlockMatrix const &m, DualRows const &rows, std::vector<int> const &first,
                            std::vector<double> const &root)
 {
-  struct Entry
-  {
-    int row, column;
-    double value;
-  };
-  std::vector<Entry> entry;
+  std::vector<MatrixEntry> entry;
   int const n = static_cast<int>(m.offset.size()) - 1;
   for (int i = 0; i < n; ++i)
     for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
@@ -261,20 +118,7 @@ LowerTriangle scalarMatrix(BlockMatrix const &m, DualRows const &rows, std::vect
           entry.push_back({std::max(a, b), std::min(a, b), m.block[e].value[k][l] / (root[a] * root[b])});
         }
     }
-  LowerTriangle matrix;
-  matrix.offset.assign(root.size() + 1, 0);
-  for (Entry const &x : entry)
-    ++matrix.offset[x.row + 1];
-  std::partial_sum(matrix.offset.begin(), matrix.offset.end(), matrix.offset.begin());
-  std::vector<int> next(matrix.offset.begin(), matrix.offset.end() - 1);
-  matrix.column.resize(entry.size());
-  matrix.value.resize(entry.size());
-  for (Entry const &x : entry)
-  {
-    matrix.column[next[x.row]] = x.column;
-    matrix.value[next[x.row]++] = x.value;
-  }
-  return matrix;
+  return byRows(entry, root.size());
 }
 
 /// Everything but the matrix. \param first By row: its first unknown.
@@ -301,6 +145,149 @@ void fillUnknowns(DualRows const &rows, std::vector<int> const &order, std::vect
   }
 }
 
+/// Add up what has the same place, in the order of the list.
+std::vector<MatrixEntry> merged(std::vector<MatrixEntry> entry)
+{
+  std::stable_sort(entry.begin(), entry.end(),
+                   [](MatrixEntry const &a, MatrixEntry const &b)
+                   { return a.row != b.row ? a.row < b.row : a.column < b.column; });
+  std::vector<MatrixEntry> sum;
+  for (MatrixEntry const &e : entry)
+    if (!sum.empty() && sum.back().row == e.row && sum.back().column == e.column)
+      sum.back().value += e.value;
+    else
+      sum.push_back(e);
+  return sum;
+}
+
+/// Traces of all ranks' rows in the order of keys.
+std::vector<RowTrace> allTraces(Mesh const &mesh, ContactSystem const &s, ContactRows const &rows,
+                                std::vector<long long> const &own_key, Exchange const &exchange)
+{
+  View<RowTrace *> const trace("Harmos::constrain::trace", s.num_own);
+  View<ContactRow *> const row = rows.row;
+  Kokkos::parallel_for(
+      "Harmos::constrain::rowTraces", RangePolicy(0, s.num_own),
+      KOKKOS_LAMBDA(int i) { trace(i) = rowTrace(mesh, row(s.own(i))); });
+  std::vector<RowTrace> const own = toHost(trace);
+  if (exchange.size() == 1)
+    return own;
+  std::vector<RowTrace> const all = gathered<double>(own, exchange);
+  std::vector<long long> const key = gathered<long long>(own_key, exchange);
+  std::vector<int> order(key.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
+  std::vector<RowTrace> sorted;
+  for (int const i : order)
+    sorted.push_back(all[i]);
+  return sorted;
+}
+
+/// Which rows may share a multiplier: same materials, same interaction.
+std::vector<int> rowKinds(std::vector<RowTrace> const &trace, std::vector<DualRow> const &rows)
+{
+  std::vector<std::array<double, 4>> known;
+  std::vector<int> kind;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    std::array<double, 4> const own = {trace[i].material[0], trace[i].material[1], rows[i].tied, rows[i].friction};
+    auto const at = std::find(known.begin(), known.end(), own);
+    kind.push_back(static_cast<int>(at - known.begin()));
+    if (at == known.end())
+      known.push_back(own);
+  }
+  return kind;
+}
+
+/// The unknowns of groups: two for those of rows with two directions, in the order in which the fine ones meet them.
+Spread spreadOf(std::vector<std::vector<GroupShare>> const &shares, std::vector<DualRow> const &rows,
+                std::vector<int> const &order, std::vector<int> const &first, int num_groups, int &unknowns)
+{
+  std::vector<int> first_of_group(num_groups, -1);
+  Spread spread;
+  unknowns = 0;
+  for (int const i : order)
+    for (GroupShare const &share : shares[i])
+    {
+      int const directions = static_cast<int>(rows[i].directions);
+      if (first_of_group[share.group] < 0)
+      {
+        first_of_group[share.group] = unknowns;
+        unknowns += directions;
+      }
+      for (int k = 0; k < directions; ++k)
+        spread.entry.push_back({first[i] + k, first_of_group[share.group] + k, share.weight});
+    }
+  return spread;
+}
+
+/// spread^T (problem) spread, in unknowns scaled by its own row sums; the spread's weights become those between scaled
+/// unknowns.
+DualProblem coarsen(DualProblem const &fine, int unknowns, Spread &spread)
+{
+  std::vector<std::vector<Spread::Entry>> by_fine(fine.size());
+  for (Spread::Entry const &e : spread.entry)
+    by_fine[e.fine].push_back(e);
+  DualProblem coarse;
+  coarse.body_weight = fine.body_weight;
+  coarse.b.assign(unknowns, 0.0);
+  coarse.tied.assign(unknowns, 0);
+  coarse.normal_of.assign(unknowns, -1);
+  coarse.friction.assign(unknowns, 0.0);
+  std::vector<MatrixEntry> matrix, body;
+  for (int u = 0; u < fine.size(); ++u)
+    for (Spread::Entry const &e : by_fine[u])
+    {
+      coarse.b[e.coarse] += e.weight * fine.root[u] * fine.b[u];
+      coarse.tied[e.coarse] = fine.tied[u];
+      if (fine.normal_of[u] >= 0)
+      {
+        coarse.normal_of[e.coarse] = e.coarse - 1;
+        coarse.friction[e.coarse] = fine.friction[u] * fine.root[fine.normal_of[u]] / fine.root[u];
+      }
+      for (int k = fine.matrix.offset[u]; k < fine.matrix.offset[u + 1]; ++k)
+      {
+        int const v = fine.matrix.column[k];
+        double const a = fine.matrix.value[k] * fine.root[u] * fine.root[v];
+        for (Spread::Entry const &f : by_fine[v])
+        {
+          double const twice = u != v && e.coarse == f.coarse ? 2.0 : 1.0;
+          if (u != v || e.coarse >= f.coarse)
+            matrix.push_back(
+                {std::max(e.coarse, f.coarse), std::min(e.coarse, f.coarse), twice * a * e.weight * f.weight});
+        }
+      }
+    }
+  for (BodyEntry const &entry : fine.body)
+    for (Spread::Entry const &e : by_fine[entry.unknown])
+      body.push_back({e.coarse, entry.component, e.weight * fine.root[entry.unknown] * entry.jacobian});
+  matrix = merged(matrix);
+  body = merged(body);
+  std::vector<double> diagonal(unknowns, 0.0), rigid(unknowns, 0.0);
+  for (MatrixEntry const &x : matrix)
+  {
+    diagonal[x.row] += std::fabs(x.value);
+    diagonal[x.column] += x.row != x.column ? std::fabs(x.value) : 0.0;
+  }
+  for (MatrixEntry const &x : body)
+    rigid[x.row] += x.value * x.value * coarse.body_weight[x.column];
+  for (int i = 0; i < unknowns; ++i)
+  {
+    coarse.root.push_back(std::sqrt(diagonal[i] > 1e-12 * rigid[i] ? diagonal[i] : rigid[i]));
+    coarse.b[i] /= coarse.root[i];
+    if (coarse.normal_of[i] >= 0)
+      coarse.friction[i] *= coarse.root[i] / coarse.root[i - 1];
+  }
+  for (MatrixEntry &x : matrix)
+    x.value /= coarse.root[x.row] * coarse.root[x.column];
+  coarse.matrix = byRows(matrix, coarse.root.size());
+  for (MatrixEntry const &x : body)
+    coarse.body.push_back({x.row, x.column, x.value / coarse.root[x.row]});
+  for (Spread::Entry &e : spread.entry)
+    e.weight *= fine.root[e.fine] / coarse.root[e.coarse];
+  return coarse;
+}
+
 } // namespace
 
 void DualProblem::multiply(std::vector<double> const &x, std::vector<double> &out) const
@@ -321,10 +308,11 @@ double DualProblem::bodyTrace() const
   return trace;
 }
 
-DualProblem assembleDualProblem(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange)
+AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
+                                     Placement placement, Exchange const &exchange)
 {
   View<long long *> const key = keysOf(rows);
-  DualRows const all = allRows(ownRows(system, key), exchange);
+  DualRows const own = ownRows(system, key), all = allRows(own, exchange);
   BlockMatrix const blocks = mergeBlocks(all);
   std::vector<int> const order = orderRows(blocks);
   std::vector<int> first(all.key.size());
@@ -334,7 +322,8 @@ DualProblem assembleDualProblem(ContactSystem const &system, ContactRows const &
     first[i] = unknowns;
     unknowns += static_cast<int>(all.row[i].directions);
   }
-  DualProblem problem;
+  AssembledProblem assembled;
+  DualProblem &problem = assembled.rows;
   fillUnknowns(all, order, first, problem);
   problem.matrix = scalarMatrix(blocks, all, first, problem.root);
   auto const weight = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), system.body_inverse_mass);
@@ -347,7 +336,15 @@ DualProblem assembleDualProblem(ContactSystem const &system, ContactRows const &
     bool const known = i < static_cast<int>(all.key.size()) && all.key[i] == k;
     problem.first.push_back(known ? first[i] : -1);
   }
-  return problem;
+  if (placement == Placement::VitalVertices)
+  {
+    std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own.key, exchange);
+    int num_groups = 0, coarse = 0;
+    auto const shares = vitalGroups(trace, rowKinds(trace, all.row), num_groups);
+    assembled.spread = spreadOf(shares, all.row, order, first, num_groups, coarse);
+    assembled.groups = coarsen(problem, coarse, assembled.spread);
+  }
+  return assembled;
 }
 
 } // namespace Harmos

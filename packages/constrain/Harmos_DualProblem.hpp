@@ -42,8 +42,28 @@ struct DualProblem
   double bodyTrace() const;
 };
 
+/// x of a problem = spread times x of a smaller one whose unknowns stand for groups of rows.
+struct Spread
+{
+  struct Entry
+  {
+    int fine, coarse;
+    double weight; // between scaled unknowns
+  };
+  std::vector<Entry> entry; // none: the problem itself
+};
+
+/// The contact problem, and with Placement::VitalVertices that of its groups (vitalGroups): spread^T A spread.
+struct AssembledProblem
+{
+  DualProblem rows;   // one unknown for each direction of a row
+  DualProblem groups; // VitalVertices: of a group
+  Spread spread;      // from groups to rows
+};
+
 /// Collective: every rank gets the rows of all.
-DualProblem assembleDualProblem(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange);
+AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
+                                     Placement placement, Exchange const &exchange);
 
 } // namespace Harmos
 

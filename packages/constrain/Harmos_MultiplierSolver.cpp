@@ -263,16 +263,25 @@ public:
     }
   }
 
-  /// Projected Newton steps on the assembled problem; judged by the operator without a matrix.
-  void byProjectedNewton(ContactRows const &rows)
+  /// Projected Newton steps on the assembled problem; judged by the operator without a matrix, or where groups of rows
+  /// share a multiplier by their problem's residual.
+  void byProjectedNewton(Mesh const &mesh, ContactRows const &rows, Placement placement)
   {
     if (residualFits())
       return;
-    DualProblem const problem = assembleDualProblem(s_, rows, exchange_);
-    DualSolution const dual = projectedNewton(problem, 0.9 * bound_, max_iterations_);
+    AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, placement, exchange_);
+    bool const grouped = placement == Placement::VitalVertices;
+    DualSolution const dual = projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_);
     solution.iterations = dual.iterations;
-    setImpulses(problem, dual.x);
+    std::vector<double> spread(grouped ? problem.rows.size() : 0, 0.0);
+    for (Spread::Entry const &e : problem.spread.entry)
+      spread[e.fine] += e.weight * dual.x[e.coarse];
+    setImpulses(problem.rows, grouped ? spread : dual.x);
     residualFits();
+    if (!grouped)
+      return;
+    solution.residual = dual.violation / scale_;
+    solution.converged = dual.violation <= bound_;
   }
 
   MultiplierSolution solution;
@@ -372,14 +381,14 @@ private:
 
 } // namespace
 
-MultiplierSolution solveMultipliers(ContactSystem const &system, ContactRows const &rows, double dt,
+MultiplierSolution solveMultipliers(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, double dt,
                                     ConstraintOptions const &options, Exchange const &exchange)
 {
   Solve solve(system, rows, dt, options, exchange);
   if (options.solver == MultiplierMethod::RowSums)
     solve.byRowSums();
   else if (options.solver == MultiplierMethod::ProjectedNewton)
-    solve.byProjectedNewton(rows);
+    solve.byProjectedNewton(mesh, rows, options.placement);
   else
     solve.byConjugateGradients();
   return solve.solution;

@@ -41,7 +41,7 @@ struct MultiplierSolution
 /// \param rows Their `travelling` carries the multipliers between ranks.
 /// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23-43; Dostal, Haslinger & Kucera, J. Comput. Appl. Math. 140
 /// (2002) 245-256 (friction).
-MultiplierSolution solveMultipliers(ContactSystem const &system, ContactRows const &rows, double dt,
+MultiplierSolution solveMultipliers(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, double dt,
                                     ConstraintOptions const &options, Exchange const &exchange);
 
 } // namespace Harmos

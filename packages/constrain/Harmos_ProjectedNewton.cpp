@@ -45,7 +45,8 @@ public:
       if (!descend())
         safeStep();
     }
-    return {x_, iterations_};
+    gradient(x_, g_);
+    return {x_, iterations_, violation()};
   }
 
 private:

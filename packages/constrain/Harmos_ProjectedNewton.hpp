@@ -10,7 +10,8 @@ namespace Harmos
 struct DualSolution
 {
   std::vector<double> x;
-  int iterations = 0; // solves with a Cholesky factor
+  int iterations = 0;     // solves with a Cholesky factor
+  double violation = 0.0; // of the residual at x [m/s]
 };
 
 /// \brief Minimise x^T A x / 2 + b . x over low <= x <= high by Newton steps that are projected onto the bounds.

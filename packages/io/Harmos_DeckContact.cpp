@@ -30,9 +30,10 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
   if (method == "multipliers")
   {
     std::string const placement = list.get<std::string>("placement");
-    deck.constraint.placement = placement == "gauss points"   ? Placement::GaussPoints
-                                : placement == "segment ends" ? Placement::SegmentEnds
-                                                              : Placement::Midpoint;
+    deck.constraint.placement = placement == "gauss points"     ? Placement::GaussPoints
+                                : placement == "segment ends"   ? Placement::SegmentEnds
+                                : placement == "vital vertices" ? Placement::VitalVertices
+                                                                : Placement::Midpoint;
   }
   if (is_explicit)
     deck.constraint.penalty = list.get<double>("penalty");
@@ -40,6 +41,11 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
   deck.constraint.solver = solver == "row sums"              ? MultiplierMethod::RowSums
                            : solver == "conjugate gradients" ? MultiplierMethod::ConjugateGradients
                                                              : MultiplierMethod::ProjectedNewton;
+  check.require(deck.constraint.placement != Placement::VitalVertices ||
+                    deck.constraint.solver == MultiplierMethod::ProjectedNewton,
+                "numerics/constraint/solver",
+                "\"" + solver +
+                    "\" has no groups of rows, as placement vital vertices needs; expected: projected newton");
   check.require(!is_explicit || deck.constraint.solver == MultiplierMethod::ProjectedNewton,
                 "numerics/constraint/solver", "\"" + solver + "\" has nothing to solve with method " + method);
   for (BodySpec const &body : deck.bodies)

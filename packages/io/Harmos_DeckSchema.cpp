@@ -225,7 +225,8 @@ void addNumerics(ParameterList &list)
     add(c.sublist(std::string("method = ") + method), "penalty", constraint.penalty, number(positive),
         "traction over impedance times closing velocity");
   add(c.sublist("method = multipliers"), "placement", std::string("midpoint"),
-      choice({"midpoint", "gauss points", "segment ends"}), "of the multipliers on a segment: one, or two");
+      choice({"midpoint", "gauss points", "segment ends", "vital vertices"}),
+      "of the multipliers: one on a segment, two, or one for each vital cell edge that the interface crosses");
   add(c, "solver", std::string("projected newton"), choice({"projected newton", "conjugate gradients", "row sums"}),
       "of the multipliers. projected newton: with a factor of the assembled matrix, on every rank the whole problem; "
       "conjugate gradients: with projections, without a matrix; row sums: the plain iteration with the row sums of the "

@@ -83,7 +83,7 @@ struct UpdateReport
 struct TravelReport
 {
   long long limited = 0;      // owned light dof nodes that were slowed to their pair's mean velocity
-  double largest_ratio = 0.0; // afterwards, owned nodes: largest dt |v| / (0.9 altitude); > 1: repeat with dt / ratio
+  double largest_ratio = 0.0; // afterwards: largest dt |v| / (0.9 altitude), 2 where a cell folds; > 1: repeat, dt / 2
   Vector2 wall_impulse = {0.0, 0.0}; // taken by node conditions in doing so
   double energy_loss = 0.0;          // kinetic energy removed; the ledger counts it as contact loss [J/m]
 };

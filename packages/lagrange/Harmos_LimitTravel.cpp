@@ -2,6 +2,7 @@
 #include <Harmos_Lagrange.hpp>
 
 #include <detail/Harmos_JoinReducer.hpp>
+#include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
 {
@@ -266,6 +267,29 @@ SlowSums slowMarked(SlowLight const &slow, View<double *[2]> const &initial, Lag
   return result;
 }
 
+/// Below this ratio (dt |v| of half an altitude) no two nodes of a cell can pass each other.
+constexpr double least_folding_ratio = 0.5 / largest_part_of_altitude;
+
+/// The ratio, or two where the step would fold an owned deformable pair's cell, so that it is repeated with half.
+double withFolding(double ratio, SlowLight const &slow)
+{
+  if (ratio <= least_folding_ratio)
+    return ratio;
+  long long folded = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::lagrange::withFolding", RangePolicy(0, slow.pairs.num_pairs),
+      KOKKOS_LAMBDA(int pair, long long &count) {
+        int const cell = slow.pairs.cell(pair);
+        if (slow.mesh.cell_depth(cell) != 0 || slow.materials(slow.pairs.material(pair)).rigid_body >= 0)
+          return;
+        auto const v = detail::cornerVelocities(slow.pairs, slow.half, pair);
+        auto const moved = detail::moved(detail::cellCorners(slow.mesh, cell), slow.dt, v);
+        count += !(detail::leastCornerArea(moved) > 0.0);
+      },
+      folded);
+  return folded > 0 ? Math::max(ratio, 2.0) : ratio;
+}
+
 } // namespace
 
 TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
@@ -276,9 +300,11 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
   SlowLight slow{mesh,          pairs,     dof_nodes,          materials, boundary, state.record,
                  work.dof_mass, work.half, work.node_altitude, {},        dt,       options.light_node};
   Crossing const crossing = largestCrossing(slow);
-  report.largest_ratio = std::sqrt(crossing.owned);
   if (crossing.light == 0)
+  {
+    report.largest_ratio = withFolding(std::sqrt(crossing.owned), slow);
     return report;
+  }
   int const count = dof_nodes.num_dof_nodes;
   View<int *> const offender("Harmos::lagrange::offender", count), slowed("Harmos::lagrange::slowed", count);
   Kokkos::parallel_for(
@@ -290,7 +316,7 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
       KOKKOS_LAMBDA(int dof) { slowed(dof) = slow.pairOfCompanion(dof); });
   slow.slowed_with = slowed;
   report = slowMarked(slow, state.velocity, work);
-  report.largest_ratio = std::sqrt(largestCrossing(slow).owned);
+  report.largest_ratio = withFolding(std::sqrt(largestCrossing(slow).owned), slow);
   return report;
 }
 

@@ -172,7 +172,7 @@ struct AngleBracket
 /// where the secant is slow.
 KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, Vector2 const &start)
 {
-  constexpr int max_iterations = 60;
+  constexpr int max_iterations = 100; // a dozen to the bracket, 33 halvings of it, and what the secant tries between
   constexpr double least_curvature = 0.1; // of the secant, of Gauss-Newton's: below it the latter is taken
   constexpr double longest_step = 0.5;
   Vector2 const along = perpendicular(start);

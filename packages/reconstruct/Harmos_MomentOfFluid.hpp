@@ -88,8 +88,9 @@ KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 cons
 KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vector2 const &start, double volume,
                                                       Vector2 const &reference, AreaWeight const &weight)
 {
-  constexpr int max_iterations = 60;
-  constexpr double tolerance = 4e-16; // of the unit cell: the round-off of the centroid
+  constexpr int max_iterations = 100;  // a dozen to the bracket, 50 halvings of it, and what Newton tries between
+  constexpr double tolerance = 4e-16;  // of the unit cell: the round-off of the centroid
+  constexpr double resolution = 1e-15; // of an angle up to a turn
   constexpr double last_step = 1e-8;
   Vector2 const start_along = perpendicular(start);
   double theta = 0.0, low = 0.0, high = 0.0, last_slope = 1e300;
@@ -124,7 +125,7 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
     if (bisect)
       next = 0.5 * (low + high);
     last_slope = Math::fabs(g);
-    if (Math::fabs(next - theta) <= 1e-16)
+    if (Math::fabs(next - theta) <= resolution)
       return line;
     theta = next;
   }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact without friction where symmetry or Newton gives the answer: oblique bars, a disc in its socket, a T of blocks."""
-from math import cos, radians, sin
+from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
-from harness import ROOT, check, clean, harmos, run
+from harness import ROOT, check, clean, harmos, read_columns, run
 
 DECKS = ROOT / "test/verification/decks"
 QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": "false"}
@@ -42,6 +42,47 @@ def test_a_disc_in_its_socket_keeps_its_angular_momentum():
         clean(r)
     check("angular momentum lost in half a revolution at radius 8 cells", 1.0 - min(kept), 0.025)
     check("dependence on the offset, of the loss", (max(kept) - min(kept)) / (1.0 - min(kept)), 1.0 / 3.0)
+
+
+def line_of_centres(r, centre):
+    """Sum of |impulse| times the direction from the left disc's centre to the right one's, which move with their momenta."""
+    total, mass = [0.0, 0.0], r.first("left.mass")
+    for i in range(1, len(r["dt"])):
+        for body, x in centre.items():
+            for k, d in enumerate("xy"):
+                x[k] += r["dt"][i] * r[f"{body}.momentum_{d}"][i] / mass
+        size = hypot(*(r[f"left.momentum_{d}"][i] - r[f"left.momentum_{d}"][i - 1] for d in "xy"))
+        apart = [centre["right"][k] - centre["left"][k] for k in (0, 1)]
+        total = [t + size * a / hypot(*apart) for t, a in zip(total, apart)]
+    return total
+
+
+def hertz_width(force, radius, bulk, shear):
+    """Width of contact of two like discs of a radius in plane strain under a force per depth (Hertz)."""
+    young, poisson = 9.0 * bulk * shear / (3.0 * bulk + shear), (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+    stiffness, curvature_radius = 0.5 * young / (1.0 - poisson**2), 0.5 * radius
+    return 2.0 * sqrt(4.0 * force * curvature_radius / (pi * stiffness))
+
+
+def test_discs_exchange_momentum_along_the_line_of_their_centres():
+    coarse = {"mesh/x": "{from: -1.25, to: 1.25, cells: 50}", "mesh/y": "{from: -1.0, to: 1.0, cells: 40}"}
+    r = harmos("two_discs/deck.yaml", {**coarse, **QUIET})
+    scale = 100.0 * r.first("left.mass")
+    impulse = [r.last(f"right.momentum_{d}") - r.first(f"right.momentum_{d}") for d in "xy"]
+    line = line_of_centres(r, {"left": [-0.45, 0.1], "right": [0.45, -0.1]})
+    check("momentum that appears", max(abs(p) for d in "xy" for p in r[f"momentum_{d}"]) / scale, 1e-12)
+    check("direction of the impulse against the line of centres, degrees",
+          abs(degrees(atan2(impulse[1], impulse[0]) - atan2(line[1], line[0]))), 0.5)
+    turned_by = max(abs(value - r.first("angular_momentum")) for value in r["angular_momentum"])
+    check("change of angular momentum", turned_by / abs(r.first("angular_momentum")), 2e-3)
+    touch = next(t for t, p in zip(r["time"], r["left.momentum_x"]) if abs(p - scale) > 1e-6 * scale)
+    check("first touch, of 0.62702 ms, in the time that a cell takes to close", abs(touch - 6.2702e-4) / (0.05 / 200.0), 0.05)
+    contact = read_columns(r.directory / "contact.csv")
+    force, width = max((hypot(x, y), a) for x, y, a in zip(contact["force_x"], contact["force_y"], contact["area"]))
+    check("width at the greatest force against Hertz, in cells", abs(width - hertz_width(force, 0.4, 6.75e10, 2.7e10)) / 0.05, 0.5)
+    assert r.last("left.momentum_x") < -0.5 * scale, "they did not bounce"
+    assert r.summary["unconverged_cycles"] == 0
+    clean(r)
 
 
 def tee(angle, shift):

@@ -3,15 +3,18 @@
 conserved.
 """
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 
 import numpy
 
-from harness import EXAMPLE, check, clean, harmos, run
+from harness import EXAMPLE, HARMOS, check, clean, harmos, run
 
 sys.path.insert(0, str(EXAMPLE / "whipple_high"))
+sys.path.insert(0, str(EXAMPLE / "whipple_batch"))
+import batch  # noqa: E402
 import measure  # noqa: E402
 
 QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": False}
@@ -62,6 +65,26 @@ def test_a_fast_impact_perforates_bumper_and_wall_and_keeps_mass_and_momentum():
     print(f"  debris front {1e-3 * axial:.2f} km/s")
     assert 0.8 < axial / 6700.0 < 1.0, "no slower than sphere and plug after an inelastic impact, no faster than the sphere"
     clean(r)
+
+
+def test_ballistic_limit_is_christiansen_s():
+    # tw 0.127 cm of 57 ksi, tb 0.1 cm, S 10 cm, 2.8 and 2.7 g/cm3, worked out apart from the script, at 3 and 7 km/s
+    shield = {"tw": 1.27e-3, "tb": 1.0e-3, "gap": 0.1, "yield_w": 57.0 * batch.KSI, "rho_p": 2800.0, "rho_b": 2700.0}
+    for speed, centimetres in ((3000.0, 0.13467), (7000.0, 0.34579), (5000.0, 0.5 * (0.13467 + 0.34579))):
+        check(f"{speed} m/s", abs(100.0 * batch.criticalDiameter({**shield, "speed": speed}) / centimetres - 1.0), 1e-3)
+
+
+def test_a_batch_runs_a_shot_once_and_finds_a_foil_perforated():
+    folder = tempfile.mkdtemp(prefix="harmos-")
+    command = [sys.executable, EXAMPLE / "whipple_batch/batch.py", "--harmos", HARMOS, "--results", folder, "--cells", "4",
+               "--shots", "CR-54201_91"]
+    first, again = (subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout for _ in range(2))
+    print("  " + first.splitlines()[1])
+    assert first == again and len(list(pathlib.Path(folder).glob("*/run/history.csv"))) == 1
+    assert "harmos: 1 of 1 as in the experiment" in first
+    unknown = subprocess.run(command[:-1] + ["NOBODY_1"], check=False, stderr=subprocess.PIPE, text=True)
+    assert unknown.returncode != 0 and "NOBODY_1" in unknown.stderr
+    shutil.rmtree(folder)
 
 
 if __name__ == "__main__":

@@ -59,12 +59,14 @@ struct Result
   std::vector<RigidBody> bodies;
 };
 
-Result solve(Mesh const &mesh, Exchange const &exchange, int depth, RigidMotion motion, MultiplierMethod solver)
+Result solve(Mesh const &mesh, Exchange const &exchange, int depth, RigidMotion motion, MultiplierMethod solver,
+             Placement placement)
 {
   TinyScene scene(mesh, bodies(), 3, open_box);
   scene.exchange = &exchange;
   scene.options.tolerance = 1e-9;
   scene.options.solver = solver;
+  scene.options.placement = placement;
   scene.dt = 2e-3;
   RigidBody slab;
   slab.material = 2;
@@ -99,7 +101,7 @@ Result solve(Mesh const &mesh, Exchange const &exchange, int depth, RigidMotion 
 }
 
 void expectBits(Result const &one, HostMesh const &whole, int pattern, RigidMotion motion, MultiplierMethod solver,
-                Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
+                Placement placement, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
 {
   std::vector<int> owner;
   for (int c = 0; c < n * n; ++c)
@@ -111,7 +113,7 @@ void expectBits(Result const &one, HostMesh const &whole, int pattern, RigidMoti
   }
   Mesh const mesh = buildLocalMesh(whole, owner, comm->getRank(), 5);
   TpetraExchange const exchange(comm, mesh);
-  Result const some = solve(mesh, exchange, 3, motion, solver);
+  Result const some = solve(mesh, exchange, 3, motion, solver, placement);
   EXPECT_EQ(some.report.iterations, one.report.iterations);
   EXPECT_EQ(some.report.residual, one.report.residual);
   EXPECT_EQ(some.report.rows, one.report.rows);
@@ -134,6 +136,7 @@ void expectBits(Result const &one, HostMesh const &whole, int pattern, RigidMoti
 struct Case
 {
   MultiplierMethod solver;
+  Placement placement;
   int least;
 };
 
@@ -143,13 +146,15 @@ TEST(ConstrainRanks, anyPartition_givesTheBitsOfOneRank)
 {
   auto const comm = Tpetra::getDefaultComm();
   HostMesh const whole = rectilinearMesh(uniform(n, n), uniform(n, n));
-  for (Case const &c : {Case{MultiplierMethod::ProjectedNewton, 3}, Case{MultiplierMethod::ConjugateGradients, 11}})
+  for (Case const &c : {Case{MultiplierMethod::ProjectedNewton, Placement::Midpoint, 3},
+                        Case{MultiplierMethod::ProjectedNewton, Placement::VitalVertices, 3},
+                        Case{MultiplierMethod::ConjugateGradients, Placement::Midpoint, 11}})
     for (RigidMotion const motion : {RigidMotion::Free, RigidMotion::Prescribed})
     {
-      Result const one = solve(buildMesh(whole), serialExchange(), 0, motion, c.solver);
+      Result const one = solve(buildMesh(whole), serialExchange(), 0, motion, c.solver, c.placement);
       ASSERT_TRUE(one.report.converged) << one.report.residual;
       EXPECT_GE(one.report.iterations, c.least);
       for (int const pattern : {0, 1, 2})
-        expectBits(one, whole, pattern, motion, c.solver, comm);
+        expectBits(one, whole, pattern, motion, c.solver, c.placement, comm);
     }
 }

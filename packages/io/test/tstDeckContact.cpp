@@ -53,6 +53,7 @@ TEST(DeckContact, everyMethodHasItsWord)
   EXPECT_EQ(read({slides, open, "numerics/constraint/method=merged"}).constraint.method, ConstraintMethod::Merged);
   EXPECT_EQ(read({"numerics/constraint/placement=gauss points"}).constraint.placement, Placement::GaussPoints);
   EXPECT_EQ(read({"numerics/constraint/placement=segment ends"}).constraint.placement, Placement::SegmentEnds);
+  EXPECT_EQ(read({"numerics/constraint/placement=vital vertices"}).constraint.placement, Placement::VitalVertices);
   EXPECT_EQ(read({}).constraint.solver, MultiplierMethod::ProjectedNewton);
   EXPECT_EQ(read({"numerics/constraint/solver=row sums"}).constraint.solver, MultiplierMethod::RowSums);
   EXPECT_EQ(read({"numerics/constraint/solver=conjugate gradients"}).constraint.solver,
@@ -74,6 +75,8 @@ TEST(DeckContact, whatHasNoMeaning_isRefused)
   expectRefused({"numerics/constraint/penalty=1"}, "deck.yaml: numerics/constraint/penalty: does not belong here");
   expectRefused({"numerics/constraint={method: penalty, solver: row sums}"},
                 "deck.yaml: numerics/constraint/solver: \"row sums\" has nothing to solve with method penalty");
+  expectRefused({"numerics/constraint={placement: vital vertices, solver: row sums}"},
+                "deck.yaml: numerics/constraint/solver: \"row sums\" has no groups of rows");
   expectRefused({"numerics/constraint/method=penalty",
                  "bodies/lower={material: platen, shape: disc, center: [0, 0], radius: 1, motion: free}"},
                 "deck.yaml: numerics/constraint/method: \"penalty\" takes its stiffness from deformable bodies");

@@ -163,3 +163,16 @@ TEST(LimitTravel, HeavyNode_isReportedNotTouched)
   auto const again = limit(s, 0.99 * 0.3 / report.largest_ratio);
   EXPECT_LT(again.largest_ratio, 1.0);
 }
+
+TEST(LimitTravel, NodesThatWouldPassEachOther_askForAShorterStep)
+{
+  Scene s = makeScene(3, 3, 0.0, {elastic()}, [](int, int) { return std::vector<Fill>{{0, 1.0}}; });
+  s.setVelocity([](int, Vector2 x) { return Vector2{x[0] < 1.5 ? 3.0 : -3.0, 0.0}; });
+  Kokkos::deep_copy(s.work.half, s.state.velocity);
+  Kokkos::deep_copy(s.work.predicted, s.state.velocity);
+  EXPECT_GT(limit(s, 0.2).largest_ratio, 1.0);  // 0.6 each, towards each other
+  EXPECT_LT(limit(s, 0.15).largest_ratio, 0.6); // 0.45
+  s.setVelocity([](int, Vector2) { return Vector2{3.0, 0.0}; });
+  Kokkos::deep_copy(s.work.half, s.state.velocity);
+  EXPECT_LT(limit(s, 0.2).largest_ratio, 0.7); // 0.6, all the same way
+}

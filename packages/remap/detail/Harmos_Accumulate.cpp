@@ -194,9 +194,26 @@ struct AccumulateFunctor
     return verbatim;
   }
 
+  /// The donors' rows lie scattered in the outer cache: those of the next cell come while this one is summed.
+  KOKKOS_INLINE_FUNCTION void fetchRows(int index) const
+  {
+    if (index < classes.num_interface)
+      forCellAndNeighbours(in.mesh, in.links, classes.interface_cell(index),
+                           [&](int cell, int slot, int)
+                           {
+                             int const other = classes.interface_index(cell);
+                             if (other < 0)
+                               return;
+                             for (int donor = donors.offset(other); donor < donors.offset(other + 1); ++donor)
+                               if ((donors.head(donor).overlaps >> slot & 1ull) != 0)
+                                 overlays.fetch<false>(donor, slot);
+                           });
+  }
+
   KOKKOS_INLINE_FUNCTION void operator()(int index, int &fragments, int &full) const
   {
     int const acceptor = classes.interface_cell(index);
+    fetchRows(index + 1);
     for (int c = BookInMass; c <= BookInMomentumY; ++c)
       bookings(index, c) = 0.0;
     Row row{index, acceptors.begin(index), 0, false};

@@ -19,33 +19,45 @@ struct OverlayList
   M whole; // of the donor
   int size = 0;
   int slot[most_slots], acceptor[most_slots];
-  M moments[most_slots + 1]; // at `size`: what the overlays leave
-  bool has_rest = false;     // that is more than round-off
+  double value[most_slots + 1][M::count]; // of the moments; at `size`: what the overlays leave. Never cleared: long
+  bool has_rest = false;                  // that is more than round-off
 
   KOKKOS_INLINE_FUNCTION void add(int its_slot, int its_acceptor, M const &m)
   {
     slot[size] = its_slot;
     acceptor[size] = its_acceptor;
-    moments[size++] = m;
+    for (int i = 0; i < M::count; ++i)
+      value[size][i] = m.value[i];
+    ++size;
   }
 
   KOKKOS_INLINE_FUNCTION void setRest()
   {
-    M &rest = moments[size];
-    rest = whole;
-    for (int o = 0; o < size; ++o)
-      for (int i = 0; i < M::count; ++i)
-        rest.value[i] -= moments[o].value[i];
-    has_rest = rest.volume() > least_part * whole.volume();
+    for (int i = 0; i < M::count; ++i)
+    {
+      double rest = whole.value[i];
+      for (int o = 0; o < size; ++o)
+        rest -= value[o][i];
+      value[size][i] = rest;
+    }
+    has_rest = value[size][0] > least_part * whole.volume();
   }
 
   /// Parts of the donor whose means are bounded: the overlays, and the rest where there is one.
   KOKKOS_INLINE_FUNCTION int parts() const { return has_rest ? size + 1 : size; }
 
+  KOKKOS_INLINE_FUNCTION M moments(int part) const
+  {
+    M m;
+    for (int i = 0; i < M::count; ++i)
+      m.value[i] = value[part][i];
+    return m;
+  }
+
   /// The moments that the donor's polynomials are integrated with over a part.
   KOKKOS_INLINE_FUNCTION M fieldMoments(int part) const
   {
-    M m = moments[part];
+    M m = moments(part);
     if (m.volume() > least_part * whole.volume())
       return m;
     double const scale = m.volume() / whole.volume();

@@ -317,6 +317,8 @@ struct IntersectFunctor : Finder
     {
       List list;
       cutDonor(d, list);
+      for (int o = 0; o < list.size; ++o)
+        overlays.fetch<true>(number, list.slot[o]);
       if (list.size == 0)
         makeWhole(d, head.pair);
       else
@@ -324,7 +326,7 @@ struct IntersectFunctor : Finder
         d.polynomial = Finder::polynomial(number, cell, list);
         begin(d);
         for (int o = 0; o < list.size; ++o)
-          take(d, list.slot[o], list.acceptor[o], list.moments[o], list.fieldMoments(o));
+          take(d, list.slot[o], list.acceptor[o], list.moments(o), list.fieldMoments(o));
       }
     }
     else

@@ -34,6 +34,17 @@ struct Overlays
   {
     return &sum(static_cast<std::ptrdiff_t>(slots) * donor + slot, 0);
   }
+
+  /// Ask for a row that will be read, or written, soon.
+  template <bool write>
+  KOKKOS_FORCEINLINE_FUNCTION void fetch([[maybe_unused]] int donor, [[maybe_unused]] int slot) const
+  {
+#ifdef HARMOS_VECTOR_TYPES
+    constexpr int line = 8; // doubles
+    for (int i = 0; i < num_overlay_sums; i += line)
+      __builtin_prefetch(row(donor, slot) + i, write ? 1 : 0);
+#endif
+  }
 };
 
 /// What owned interface cells book, one column each.

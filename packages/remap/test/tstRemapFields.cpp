@@ -200,16 +200,24 @@ TEST(Fields, oneByOneOrTogether_haveTheSameBits)
 
 TEST(Fields, donorsThatAreBent_areCutExactly)
 {
-  // Every other inner node is drawn over the diagonal of a cell, whose concave rest has two teeth.
-  Mesh const to = regularMesh(8);
-  Mesh from = shiftedMesh(to, 0.0);
+  // Every other inner node is drawn over a diagonal: the rest of that cell is concave, and the target's sides there,
+  // nearly straight, cut off both of its tips.
+  int const n = 8;
+  Mesh const regular = regularMesh(n);
+  Mesh to = shiftedMesh(regular, 0.0), from = shiftedMesh(regular, 0.0);
   for (int node = 0; node < to.num_nodes; ++node)
   {
-    double const i = std::round(8.0 * to.node_position(node, 0)), j = std::round(8.0 * to.node_position(node, 1));
-    if (i > 0.0 && i < 8.0 && j > 0.0 && j < 8.0 && std::fmod(i, 2.0) == 0.0 && std::fmod(j, 2.0) == 0.0)
-      for (int d = 0; d < 2; ++d)
-        from.node_position(node, d) += 0.55 / 8.0;
+    double const i = std::round(n * to.node_position(node, 0)), j = std::round(n * to.node_position(node, 1));
+    if (i == 0.0 || i == n || j == 0.0 || j == n)
+      continue;
+    bool const drawn = std::fmod(i, 2.0) == 0.0 && std::fmod(j, 2.0) == 0.0;
+    for (int d = 0; d < 2; ++d)
+    {
+      to.node_position(node, d) += drawn ? 0.45 / n : 0.0;
+      from.node_position(node, d) += drawn ? 0.6 / n : (d == 0 ? -0.1 : -0.2) / n;
+    }
   }
+  updateGeometry(to);
   updateGeometry(from);
   CellFields const before = averages(from, {slope});
   CellFields const after = remapped(from, to, before, optionsOf(2, RemapLimiter::None));

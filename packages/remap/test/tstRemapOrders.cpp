@@ -141,6 +141,33 @@ TEST(RandomMesh, randomDensityAndPrimitives_stayWithinTheirRange)
       EXPECT_LE(overshoot(optionsOf(order, swept, RemapLimiter::Range)), 1e-12) << order << swept;
 }
 
+TEST(RandomMesh, whatAContactWallPushesBack_staysWithinTheRangeToo)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(1.0, 2.0);
+  for (int order : {2, 3})
+  {
+    Scene scene(12, 12, 0.2, twoLaws(), BoundaryKind::ContactWall);
+    auto const noise = [&](int, Vector2 const &) { return std::round(uniform(random)); };
+    scene.paint({rest(0)}, noise, noise);
+    // Cells at the right wall stretch both ways: the inner neighbours get one end, the wall pushes back the other.
+    scene.move(
+        [](int, Vector2 const &x)
+        {
+          double const from_wall = std::round(12.0 * (1.0 - x[0]));
+          return Vector2{from_wall == 0.0 ? 0.4 / 12.0 : from_wall == 1.0 ? -0.4 / 12.0 : 0.0, 0.0};
+        });
+    scene.options = optionsOf(order, false, RemapLimiter::Range);
+    RemapResult const result = scene.remapped();
+    EXPECT_EQ(scene.report.failures, 0);
+    for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    {
+      EXPECT_GE(result.state.record(pair, InternalEnergy), 1.0 - 1e-12);
+      EXPECT_LE(result.state.record(pair, InternalEnergy), 2.0 + 1e-12);
+    }
+  }
+}
+
 TEST(RandomMesh, otherLimiters_overshoot)
 {
   for (bool swept : {false, true})

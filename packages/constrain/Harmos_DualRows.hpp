@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_DUAL_ROWS_HPP
+#define HARMOS_DUAL_ROWS_HPP
+
+#include <Harmos_ContactSystem.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace Harmos
+{
+
+/// A row without its couplings.
+struct DualRow
+{
+  double directions, tied, friction;
+  double predicted[2], diagonal[2];
+  double body[2];        // compact numbers
+  double jacobian[2][6]; // by direction: of side a's body, of side b's
+};
+
+/// Part of the coupling of a row to one that is not behind it in the order of keys, by one dof node.
+struct DualBlock
+{
+  double value[2][2]; // by direction of the row, of the other row
+};
+
+/// Rows with their couplings, in the order of keys.
+struct DualRows
+{
+  std::vector<long long> key;
+  std::vector<DualRow> row;
+  std::vector<long long> count; // blocks of a row
+  std::vector<long long> other; // key of the other row of a block
+  std::vector<DualBlock> block;
+};
+
+template <class T>
+std::vector<T> toHost(View<T *> const &view)
+{
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+  return std::vector<T>(host.data(), host.data() + host.extent(0));
+}
+
+/// The items of all ranks, in the order of ranks. T: made of `Part`s.
+template <class Part, class T>
+std::vector<T> gathered(std::vector<T> const &mine, Exchange const &exchange)
+{
+  std::vector<long long> count(static_cast<std::size_t>(exchange.size()), 0);
+  count[static_cast<std::size_t>(exchange.rank())] = static_cast<long long>(mine.size());
+  exchange.sum(count.data(), exchange.size());
+  auto const here = count.begin() + exchange.rank();
+  std::vector<T> all(static_cast<std::size_t>(std::accumulate(count.begin(), count.end(), 0LL)), T{});
+  std::copy(mine.begin(), mine.end(), all.begin() + std::accumulate(count.begin(), here, 0LL));
+  exchange.sum(reinterpret_cast<Part *>(all.data()), static_cast<int>(all.size() * (sizeof(T) / sizeof(Part))));
+  return all;
+}
+
+/// Keys of this rank's rows, the halo's included.
+View<long long *> keysOf(ContactRows const &rows);
+
+/// This rank's own rows.
+DualRows ownRows(ContactSystem const &system, View<long long *> const &key);
+
+/// The rows of all ranks in the order of keys. Collective.
+DualRows allRows(DualRows const &own, Exchange const &exchange);
+
+} // namespace Harmos
+
+#endif

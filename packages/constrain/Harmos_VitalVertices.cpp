@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_VitalVertices.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Harmos
+{
+
+KOKKOS_FUNCTION RowTrace rowTrace(Mesh const &mesh, ContactRow const &row)
+{
+  constexpr double at_node = 1e-8; // distance of the line, in cells
+  int const cell = row.cell_a;
+  Quadrilateral const corner = cellQuadrilateral(mesh, cell);
+  double const tolerance = at_node * Math::sqrt(mesh.cell_area(cell));
+  double side[4];
+  int nearest = 0;
+  for (int k = 0; k < 4; ++k)
+  {
+    Vector2 const from = corner[k] - row.point, least = corner[nearest] - row.point;
+    side[k] = dot(from, row.normal);
+    nearest = dot(from, from) < dot(least, least) ? k : nearest;
+  }
+  RowTrace trace = {};
+  trace.length = row.length;
+  trace.material[0] = row.material_a;
+  trace.material[1] = row.material_b;
+  double along[2] = {0.0, 0.0};
+  int count = 0;
+  for (int k = 0; k < 4 && count < 2; ++k)
+  {
+    int const next = (k + 1) % 4;
+    bool const through = Math::fabs(side[k]) <= tolerance;
+    if (!through && (Math::fabs(side[next]) <= tolerance || side[k] * side[next] > 0.0))
+      continue;
+    double const part = through ? 0.0 : side[k] / (side[k] - side[next]);
+    Vector2 const x = corner[k] + part * (corner[next] - corner[k]);
+    double const a = static_cast<double>(mesh.node_global(mesh.cell_node(cell, k)));
+    double const b = through ? a : static_cast<double>(mesh.node_global(mesh.cell_node(cell, next)));
+    trace.node[count][0] = Math::min(a, b);
+    trace.node[count][1] = Math::max(a, b);
+    trace.point[count][0] = x[0];
+    trace.point[count][1] = x[1];
+    along[count++] = dot(x - row.point, perpendicular(row.normal));
+  }
+  // A line that grazes a corner: the corner takes it all.
+  for (; count < 2; ++count)
+  {
+    trace.node[count][0] = trace.node[count][1] = static_cast<double>(mesh.node_global(mesh.cell_node(cell, nearest)));
+    trace.point[count][0] = corner[nearest][0];
+    trace.point[count][1] = corner[nearest][1];
+  }
+  double const span = along[1] - along[0];
+  double const share = Math::fabs(span) > tolerance ? along[1] / span : 0.5;
+  trace.share[0] = Math::min(Math::max(share, 0.0), 1.0);
+  trace.share[1] = 1.0 - trace.share[0];
+  return trace;
+}
+
+namespace
+{
+
+/// Kind of row, lower and upper node.
+using EdgeKey = std::array<long long, 3>;
+
+struct CrossedEdge
+{
+  EdgeKey key;
+  double point[2];
+};
+
+} // namespace
+
+std::vector<std::vector<GroupShare>> vitalGroups(std::vector<RowTrace> const &trace, std::vector<int> const &kind,
+                                                 int &num_groups)
+{
+  auto const keyOf = [&](std::size_t row, int e)
+  {
+    return EdgeKey{kind[row], static_cast<long long>(trace[row].node[e][0]),
+                   static_cast<long long>(trace[row].node[e][1])};
+  };
+  std::map<EdgeKey, int> number;
+  std::vector<CrossedEdge> edge;
+  std::map<std::array<long long, 2>, std::vector<int>> at_node; // edges at a node, by kind and node
+  for (std::size_t row = 0; row < trace.size(); ++row)
+    for (int e = 0; e < 2; ++e)
+    {
+      EdgeKey const key = keyOf(row, e);
+      if (!number.insert({key, static_cast<int>(edge.size())}).second)
+        continue;
+      for (int k = 1; k < (key[1] == key[2] ? 2 : 3); ++k)
+        at_node[{key[0], key[k]}].push_back(static_cast<int>(edge.size()));
+      edge.push_back({key, {trace[row].point[e][0], trace[row].point[e][1]}});
+    }
+
+  auto const neighbours = [&](int i) -> std::size_t {
+    return at_node[{edge[i].key[0], edge[i].key[1]}].size() + at_node[{edge[i].key[0], edge[i].key[2]}].size();
+  };
+  std::vector<std::pair<std::size_t, EdgeKey>> order;
+  for (std::size_t i = 0; i < edge.size(); ++i)
+    order.push_back({neighbours(static_cast<int>(i)), edge[i].key});
+  std::sort(order.begin(), order.end());
+  std::vector<int> group(edge.size(), -1);
+  std::map<std::array<long long, 2>, int> owner; // vital edge at a node
+  num_groups = 0;
+  for (auto const &[degree, key] : order)
+    if (owner.count({key[0], key[1]}) == 0 && owner.count({key[0], key[2]}) == 0)
+    {
+      int const i = number[key];
+      owner[{key[0], key[1]}] = owner[{key[0], key[2]}] = i;
+      group[i] = num_groups++;
+    }
+  for (auto const &[degree, key] : order)
+  {
+    int const i = number[key];
+    if (group[i] >= 0)
+      continue;
+    double least = 1e300;
+    for (int k = 1; k < 3; ++k)
+    {
+      auto const found = owner.find({key[0], key[k]});
+      if (found == owner.end())
+        continue;
+      CrossedEdge const &vital = edge[found->second];
+      double const apart = std::hypot(vital.point[0] - edge[i].point[0], vital.point[1] - edge[i].point[1]);
+      if (apart < least)
+        group[i] = group[found->second];
+      least = std::min(least, apart);
+    }
+  }
+
+  std::vector<std::vector<GroupShare>> shares(trace.size());
+  std::vector<double> total(num_groups, 0.0);
+  for (std::size_t row = 0; row < trace.size(); ++row)
+    for (int e = 0; e < 2; ++e)
+    {
+      int const g = group[number[keyOf(row, e)]];
+      double const weight = trace[row].length * trace[row].share[e];
+      total[g] += weight;
+      if (e == 1 && !shares[row].empty() && shares[row][0].group == g)
+        shares[row][0].weight += weight;
+      else if (weight > 0.0)
+        shares[row].push_back({g, weight});
+    }
+  for (auto &row : shares)
+    for (GroupShare &share : row)
+      share.weight /= total[share.group];
+  return shares;
+}
+
+} // namespace Harmos

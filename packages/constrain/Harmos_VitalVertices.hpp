@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_VITAL_VERTICES_HPP
+#define HARMOS_VITAL_VERTICES_HPP
+
+#include <Harmos_DualProblem.hpp>
+
+#include <array>
+
+namespace Harmos
+{
+
+/// Where the line of a row's segment leaves the slave cell: two cell edges, by their nodes (twice the same: through the
+/// node), the points where it crosses them, and the shares of both in the row's point (linear between them).
+struct RowTrace
+{
+  double node[2][2]; // global, ascending
+  double point[2][2];
+  double share[2];
+  double length; // of the segment
+  double material[2];
+};
+
+/// The trace of a row; the normal is the row's.
+KOKKOS_FUNCTION RowTrace rowTrace(Mesh const &mesh, ContactRow const &row);
+
+/// A part of a group's impulse that acts in a row.
+struct GroupShare
+{
+  int group;
+  double weight;
+};
+
+/// \brief Groups of crossed cell edges, each with one multiplier.
+///
+/// Of the crossed edges a largest set without common nodes is vital (the one with the fewest neighbours first); every
+/// other edge belongs to the nearest vital one that it shares a node with. A multiplier is linear along each segment
+/// between the values of the two edges' groups. One multiplier a node layer: more would fight over the same nodes.
+///
+/// \return By row: the shares of groups in its impulse, those of a group adding up to one over its rows.
+/// Bechet, Moes & Wohlmuth, Int. J. Numer. Meth. Engng 78 (2009) 931-954.
+std::vector<std::vector<GroupShare>> vitalGroups(std::vector<RowTrace> const &trace, std::vector<int> const &kind,
+                                                 int &num_groups);
+
+} // namespace Harmos
+
+#endif
