@@ -149,18 +149,13 @@ void restoreBonds(Run &run, std::vector<double> const &tracers, std::vector<doub
                        values[2 * i + 1] != 0.0});
 }
 
-bool startsWith(std::string const &text, std::string const &start)
-{
-  return text.compare(0, start.size(), start) == 0;
-}
-
 /// A restart keeps the mesh and the bodies; what else of the physics has changed it names in a warning.
 void compareDecks(Run &run, std::string const &before)
 {
   std::string changed;
   for (std::string const &path : changedKeys(before, run.deck.yaml))
   {
-    auto const begins = [&](char const *start) { return startsWith(path, start); };
+    auto const begins = [&](char const *start) { return path.rfind(start, 0) == 0; };
     if (begins("run/") || begins("output/") || begins("probes/") || path == "title")
       continue;
     if (path == "geometry" || begins("bodies/") || (begins("mesh/") && !begins("mesh/smoother")))

@@ -12,14 +12,14 @@ rod only rings.
 import argparse
 import concurrent.futures
 import csv
-import json
 import math
 import os
 import pathlib
-import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from completed_run import completedRun  # noqa: E402
 LAWS = {"johnson-cook": "#4C78A8", "steinberg-guinan": "#B65D5D"}
 
 
@@ -48,15 +48,7 @@ def folder(results, shot, law, cells):
 
 
 def run(harmos, results, shot, law, cells):
-    out = folder(results, shot, law, cells)
-    summary = out / "summary.json"
-    if summary.exists() and json.loads(summary.read_text())["status"] == "completed":
-        return
-    arguments = [f"{key}={value}" for key, value in settings(shot, law, cells).items()]
-    done = subprocess.run([harmos, "run", HERE / "deck.yaml", "--output", out, "--force"]
-                          + [word for argument in arguments for word in ("--set", argument)], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{shot['shot']}, {law}: {done.stderr.strip()}")
+    completedRun(harmos, HERE / "deck.yaml", folder(results, shot, law, cells), settings(shot, law, cells))
 
 
 def measure(out):

@@ -11,13 +11,13 @@ anvils, lagrangian) stop at 16 cells.
 import argparse
 import concurrent.futures
 import csv
-import json
 import os
 import pathlib
-import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from completed_run import completedRun, summaryOf  # noqa: E402
 RADIUS, ANVIL = 0.0032, 0.0064  # of the rod; depth of the anvil [m]
 ANVIL_LAW = "{eos: rigid, density: 15600.0}"
 ON_ANVIL = {"materials/anvil": ANVIL_LAW, "bodies/anvil": f"{{material: anvil, shape: rectangle, center: [0.0, {-0.5 * ANVIL}], "
@@ -47,23 +47,14 @@ def folder(results, name, cells):
 
 def run(harmos, results, planar, name, cells):
     keys, anvil, _, _ = SERIES[name]
-    out = folder(results, name, cells)
-    summary = out / "summary.json"
-    if summary.exists() and json.loads(summary.read_text())["status"] == "completed":
-        return
-    arguments = [word for key, value in settings(planar, keys, anvil, cells).items() for word in ("--set", f"{key}={value}")]
-    done = subprocess.run([harmos, "run", HERE / "deck.yaml", "--output", out, "--force", *arguments], capture_output=True,
-                          text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{name}, {cells} cells: {done.stderr.strip()}")
+    completedRun(harmos, HERE / "deck.yaml", folder(results, name, cells), settings(planar, keys, anvil, cells))
 
 
 def measure(out):
     with open(out / "history.csv", newline="", encoding="utf-8") as file:
         last = list(csv.DictReader(file))[-1]
-    cycles = json.loads((out / "summary.json").read_text())["cycles"]
-    return (1e3 * (float(last["rod.y_max"]) - float(last["rod.y_min"])), 1e3 * float(last["rod.x_max"]),
-            float(last["rod.plastic_strain_max"]), cycles)
+        return (1e3 * (float(last["rod.y_max"]) - float(last["rod.y_min"])), 1e3 * float(last["rod.x_max"]),
+            float(last["rod.plastic_strain_max"]), summaryOf(out)["cycles"])
 
 
 def meshes(name, finest):

@@ -13,11 +13,11 @@ import math
 import os
 import pathlib
 import string
-import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "whipple_high"))
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "whipple_high")]
+from completed_run import completedRun  # noqa: E402
 import measure  # noqa: E402
 
 KSI = 6.894757e6
@@ -99,21 +99,16 @@ def judge(directory, s):
 
 
 def runShot(s, options):
-    """Run a shot unless its result is there; returns the result."""
+    """The result of a shot, which is run unless it is there; RuntimeError where the program fails."""
     folder = pathlib.Path(options.results) / s["id"]
     done = folder / "result.json"
     if done.exists():
         return json.loads(done.read_text(encoding="utf-8"))
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "deck.yaml").write_text(deckOf(s, options.cells), encoding="utf-8")
-    with open(folder / "log.txt", "w", encoding="utf-8") as log:
-        status = subprocess.run([options.harmos, "run", str(folder / "deck.yaml"), "--output", str(folder / "run"), "--force"],
-                                stdout=log, stderr=subprocess.STDOUT, check=False).returncode
-    if status != 0:
-        return {"status": status}
-    summary = json.loads((folder / "run/summary.json").read_text(encoding="utf-8"))
+    summary = completedRun(options.harmos, folder / "deck.yaml", folder / "run")
     perforated, left, beyond = judge(folder / "run", s)
-    result = {"status": 0, "perforated": perforated, "left": left, "beyond": beyond, "cycles": summary["cycles"],
+    result = {"perforated": perforated, "left": left, "beyond": beyond, "cycles": summary["cycles"],
               "cpu_seconds": summary["cpu_seconds"], "end_time": summary["end_time"],
               "mass_error": summary["mass_error"], "momentum_error": summary["momentum_error"]}
     done.write_text(json.dumps(result, indent=1), encoding="utf-8")
@@ -164,9 +159,11 @@ def main():
     print("shot, km/s, experiment, harmos (wall left, debris beyond), equation (d / dc), cycles, CPU s", flush=True)
     verdict = {True: "P", False: "NP"}
     for s in chosen:
-        result, limit = runShot(s, options), s["d"] / criticalDiameter(s)
-        if result["status"] != 0:
-            print(f"{s['id']}: harmos ended with status {result['status']}, see {options.results}/{s['id']}/log.txt", flush=True)
+        limit = s["d"] / criticalDiameter(s)
+        try:
+            result = runShot(s, options)
+        except RuntimeError as error:
+            print(f"{s['id']}: {error}", flush=True)
             continue
         rows.append({"experiment": s["perforated"], "harmos": result["perforated"], "equation": limit > 1.0})
         print(f"{s['id']}, {1e-3 * s['speed']:.2f}, {verdict[s['perforated']]}, {verdict[result['perforated']]} ({result['left']:.2f}, "

@@ -172,8 +172,8 @@ std::vector<RowTrace> allTraces(Mesh const &mesh, ContactSystem const &s, Contac
   std::vector<RowTrace> const own = toHost(trace);
   if (exchange.size() == 1)
     return own;
-  std::vector<RowTrace> const all = gathered<double>(own, exchange);
-  std::vector<long long> const key = gathered<long long>(own_key, exchange);
+  std::vector<RowTrace> const all = gathered(own, exchange);
+  std::vector<long long> const key = gathered(own_key, exchange);
   std::vector<int> order(key.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
@@ -190,7 +190,8 @@ std::vector<int> rowKinds(std::vector<RowTrace> const &trace, std::vector<DualRo
   std::vector<int> kind;
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
-    std::array<double, 4> const own = {trace[i].material[0], trace[i].material[1], rows[i].tied, rows[i].friction};
+    std::array<double, 4> const own = {static_cast<double>(trace[i].material[0]),
+                                       static_cast<double>(trace[i].material[1]), rows[i].tied, rows[i].friction};
     auto const at = std::find(known.begin(), known.end(), own);
     kind.push_back(static_cast<int>(at - known.begin()));
     if (at == known.end())

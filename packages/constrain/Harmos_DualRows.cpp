@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_DualRows.hpp>
 
+#include <numeric>
+
 namespace Harmos
 {
 
@@ -106,9 +108,8 @@ DualRows allRows(DualRows const &own, Exchange const &exchange)
 {
   if (exchange.size() == 1)
     return own;
-  DualRows const all{gathered<long long>(own.key, exchange), gathered<double>(own.row, exchange),
-                     gathered<long long>(own.count, exchange), gathered<long long>(own.other, exchange),
-                     gathered<double>(own.block, exchange)};
+  DualRows const all{gathered(own.key, exchange), gathered(own.row, exchange), gathered(own.count, exchange),
+                     gathered(own.other, exchange), gathered(own.block, exchange)};
   std::vector<long long> begin(all.count.size() + 1, 0);
   std::partial_sum(all.count.begin(), all.count.end(), begin.begin() + 1);
   std::vector<int> order(all.key.size());

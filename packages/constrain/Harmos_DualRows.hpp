@@ -5,7 +5,7 @@
 #include <Harmos_ContactSystem.hpp>
 
 #include <algorithm>
-#include <numeric>
+#include <type_traits>
 
 namespace Harmos
 {
@@ -42,17 +42,15 @@ std::vector<T> toHost(View<T *> const &view)
   return std::vector<T>(host.data(), host.data() + host.extent(0));
 }
 
-/// The items of all ranks, in the order of ranks. T: made of `Part`s.
-template <class Part, class T>
+/// The items of all ranks, in the order of ranks.
+template <class T>
 std::vector<T> gathered(std::vector<T> const &mine, Exchange const &exchange)
 {
-  std::vector<long long> count(static_cast<std::size_t>(exchange.size()), 0);
-  count[static_cast<std::size_t>(exchange.rank())] = static_cast<long long>(mine.size());
-  exchange.sum(count.data(), exchange.size());
-  auto const here = count.begin() + exchange.rank();
-  std::vector<T> all(static_cast<std::size_t>(std::accumulate(count.begin(), count.end(), 0LL)), T{});
-  std::copy(mine.begin(), mine.end(), all.begin() + std::accumulate(count.begin(), here, 0LL));
-  exchange.sum(reinterpret_cast<Part *>(all.data()), static_cast<int>(all.size() * (sizeof(T) / sizeof(Part))));
+  static_assert(std::is_trivially_copyable<T>::value, "travels as bytes");
+  auto const first = reinterpret_cast<char const *>(mine.data());
+  std::vector<char> const bytes = exchange.gather({first, first + mine.size() * sizeof(T)});
+  std::vector<T> all(bytes.size() / sizeof(T));
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char *>(all.data()));
   return all;
 }
 

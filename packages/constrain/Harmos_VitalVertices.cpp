@@ -36,10 +36,10 @@ KOKKOS_FUNCTION RowTrace rowTrace(Mesh const &mesh, ContactRow const &row)
       continue;
     double const part = through ? 0.0 : side[k] / (side[k] - side[next]);
     Vector2 const x = corner[k] + part * (corner[next] - corner[k]);
-    double const a = static_cast<double>(mesh.node_global(mesh.cell_node(cell, k)));
-    double const b = through ? a : static_cast<double>(mesh.node_global(mesh.cell_node(cell, next)));
-    trace.node[count][0] = Math::min(a, b);
-    trace.node[count][1] = Math::max(a, b);
+    long long const a = mesh.node_global(mesh.cell_node(cell, k));
+    long long const b = through ? a : mesh.node_global(mesh.cell_node(cell, next));
+    trace.node[count][0] = a < b ? a : b;
+    trace.node[count][1] = a < b ? b : a;
     trace.point[count][0] = x[0];
     trace.point[count][1] = x[1];
     along[count++] = dot(x - row.point, perpendicular(row.normal));
@@ -47,7 +47,7 @@ KOKKOS_FUNCTION RowTrace rowTrace(Mesh const &mesh, ContactRow const &row)
   // A line that grazes a corner: the corner takes it all.
   for (; count < 2; ++count)
   {
-    trace.node[count][0] = trace.node[count][1] = static_cast<double>(mesh.node_global(mesh.cell_node(cell, nearest)));
+    trace.node[count][0] = trace.node[count][1] = mesh.node_global(mesh.cell_node(cell, nearest));
     trace.point[count][0] = corner[nearest][0];
     trace.point[count][1] = corner[nearest][1];
   }
@@ -75,10 +75,8 @@ struct CrossedEdge
 std::vector<std::vector<GroupShare>> vitalGroups(std::vector<RowTrace> const &trace, std::vector<int> const &kind,
                                                  int &num_groups)
 {
-  auto const keyOf = [&](std::size_t row, int e)
-  {
-    return EdgeKey{kind[row], static_cast<long long>(trace[row].node[e][0]),
-                   static_cast<long long>(trace[row].node[e][1])};
+  auto const keyOf = [&](std::size_t row, int e) {
+    return EdgeKey{kind[row], trace[row].node[e][0], trace[row].node[e][1]};
   };
   std::map<EdgeKey, int> number;
   std::vector<CrossedEdge> edge;

@@ -13,11 +13,11 @@ namespace Harmos
 /// node), the points where it crosses them, and the shares of both in the row's point (linear between them).
 struct RowTrace
 {
-  double node[2][2]; // global, ascending
-  double point[2][2];
-  double share[2];
-  double length; // of the segment
-  double material[2];
+  long long node[2][2]; // global numbers of the nodes of each crossed edge, ascending
+  double point[2][2];   // [m] where the segment ends
+  double share[2];      // of the row's impulse, by end
+  double length;        // [m] of the segment
+  int material[2];      // on the segment's sides
 };
 
 /// The trace of a row; the normal is the row's.

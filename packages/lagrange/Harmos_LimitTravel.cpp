@@ -45,8 +45,14 @@ struct SlowLight
     int const own = dof_nodes.material(dof);
     if (own < 0)
       return false;
-    int const cell = mesh.node_cell.item(mesh.node_cell.offset(dof_nodes.node(dof))) / 4;
-    return dof_mass(dof) < density_range * light_node * materials(own).density0 * mesh.cell_volume(cell);
+    int const node = dof_nodes.node(dof);
+    double const volume = dof_mass(dof) / (density_range * light_node * materials(own).density0);
+    for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
+    {
+      if (volume < mesh.cell_volume(mesh.node_cell.item(i) / 4))
+        return true;
+    }
+    return false;
   }
 
   KOKKOS_INLINE_FUNCTION bool outruns(int dof, Vector2 const &velocity, double part) const

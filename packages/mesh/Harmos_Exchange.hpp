@@ -4,6 +4,8 @@
 
 #include <Harmos_Mesh.hpp>
 
+#include <vector>
+
 namespace Harmos
 {
 
@@ -43,6 +45,8 @@ public:
   /// In-place sums over ranks, in rank order (the same on every rank).
   virtual void sum(double *, int) const {}
   virtual void sum(long long *, int) const {}
+  /// The bytes of all ranks, in rank order; ranks may give different numbers of them.
+  virtual std::vector<char> gather(std::vector<char> const &mine) const { return mine; }
 
   /// Owned cells that other ranks hold with a depth <= `depth`, and the halo cells of this rank up to that depth.
   virtual HaloCells haloCells(int /*depth*/) const { return {}; }

@@ -6,6 +6,7 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -176,6 +177,29 @@ void TpetraExchange::sum(long long *values, int count) const
     return;
   std::vector<long long> const mine(values, values + count);
   Teuchos::reduceAll(*implementation_->comm, Teuchos::REDUCE_SUM, count, mine.data(), values);
+}
+
+std::vector<char> TpetraExchange::gather(std::vector<char> const &mine) const
+{
+  int const ranks = size();
+  if (ranks == 1)
+    return mine;
+  Teuchos::Comm<int> const &comm = *implementation_->comm;
+  std::vector<int> length(ranks);
+  Teuchos::gatherAll(comm, 1, std::vector<int>{static_cast<int>(mine.size())}.data(), ranks, length.data());
+  // Messages of one length: the longest.
+  int const longest = *std::max_element(length.begin(), length.end());
+  std::vector<char> sent(mine);
+  sent.resize(longest);
+  std::vector<char> received(static_cast<std::size_t>(ranks) * longest);
+  Teuchos::gatherAll(comm, longest, sent.data(), ranks * longest, received.data());
+  std::vector<char> all;
+  for (int r = 0; r < ranks; ++r)
+  {
+    auto const first = received.begin() + static_cast<std::ptrdiff_t>(r) * longest;
+    all.insert(all.end(), first, first + length[r]);
+  }
+  return all;
 }
 
 HaloCells TpetraExchange::haloCells(int depth) const

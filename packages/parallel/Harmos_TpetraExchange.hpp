@@ -33,6 +33,7 @@ public:
   double max(double value) const override;
   void sum(double *values, int count) const override;
   void sum(long long *values, int count) const override;
+  std::vector<char> gather(std::vector<char> const &mine) const override;
 
   /// \throw std::runtime_error when depth exceeds the mesh's halo, or where a list has another number of entries.
   HaloCells haloCells(int depth) const override;

@@ -79,6 +79,21 @@ void forAll(Mesh const &mesh, View<int *> const &cells, PackedRows const &rows, 
   Kokkos::deep_copy(rows.value, value);
 }
 
+TEST(TpetraExchange, gathersTheItemsOfAllRanksInTheirOrder_whateverTheirNumbers)
+{
+  Setting const s(false);
+  TpetraExchange const exchange(s.comm, s.mesh);
+  std::vector<char> mine, expected;
+  for (int r = 0; r < s.comm->getSize(); ++r)
+  {
+    std::vector<char> const of_rank((5 * r + 3) % 7, static_cast<char>('a' + r));
+    expected.insert(expected.end(), of_rank.begin(), of_rank.end());
+    if (r == s.comm->getRank())
+      mine = of_rank;
+  }
+  EXPECT_EQ(exchange.gather(mine), expected);
+}
+
 class Rows : public ::testing::TestWithParam<bool>
 {
 };
