@@ -62,11 +62,24 @@ struct Classifier
   Input in;
   Classes classes;
 
-  /// Material of a pure cell, and whether the cell holds a rigid body: these are built anew wherever one was or is,
-  /// with or without deformable material around.
+  /// Whether a cell is full of one rigid body before and after, so that it keeps its bits.
+  KOKKOS_INLINE_FUNCTION bool staysRigid(int cell) const
+  {
+    int const pair = in.pairs.offset(cell), row = in.rigid.offset(cell);
+    return !in.retargeted && in.pairs.cell_kind(cell) == PureCell && in.rigid.offset(cell + 1) == row + 1 &&
+           in.rigid.material(row) == in.pairs.material(pair) && in.rigid.volume_fraction(row) == 1.0;
+  }
+
+  /// Material of a pure cell, and whether the cell holds a rigid body in part: these are built anew wherever one was or
+  /// is, with or without deformable material around.
   KOKKOS_INLINE_FUNCTION int material(int cell, int &rigid) const
   {
     int const first = in.pairs.offset(cell), end = in.pairs.offset(cell + 1);
+    if (in.rigid.offset.extent(0) > 0 && staysRigid(cell))
+    {
+      rigid = 0;
+      return -2;
+    }
     rigid = in.rigid.offset.extent(0) > 0 && in.rigid.offset(cell) < in.rigid.offset(cell + 1) ? RigidBit : 0;
     int code = -2;
     bool const pure = in.pairs.cell_kind(cell) == PureCell;

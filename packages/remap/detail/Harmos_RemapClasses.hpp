@@ -33,7 +33,7 @@ enum SweptBits : int
   NeighbourBit = 1 << 4,  // << k: there is a cell beyond face k
   SameBeyondBit = 1 << 8, // << k: and it is pure and of the same material
   PureCellBit = 1 << 12,
-  RigidBit = 1 << 13,         // holds a rigid body, or did
+  RigidBit = 1 << 13,         // holds a rigid body, or did, and is not full of it before and after
   InterfaceCellBit = 1 << 14, // takes part in stage 2
   all_swept_corners = 15
 };
