@@ -2,6 +2,7 @@
 #include "Harmos_Points.hpp"
 
 #include <Harmos_EquationOfState.hpp>
+#include <Harmos_LocalCell.hpp>
 
 namespace Harmos
 {
@@ -30,17 +31,8 @@ KOKKOS_INLINE_FUNCTION bool cellHolds(Mesh const &mesh, int cell, Vector2 const 
 /// Local number of an owned cell, or -1.
 KOKKOS_INLINE_FUNCTION int ownCell(Mesh const &mesh, long long global)
 {
-  int low = 0, high = mesh.num_cells;
-  while (low < high)
-  {
-    int const middle = low + (high - low) / 2;
-    if (mesh.cell_global(middle) < global)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  bool const found = low < mesh.num_cells && mesh.cell_global(low) == global && mesh.cell_depth(low) == 0;
-  return found ? low : -1;
+  int const cell = localCell(mesh, global);
+  return cell >= 0 && mesh.cell_depth(cell) == 0 ? cell : -1;
 }
 
 /// The lowest of a cell and its neighbours that holds a point, or -1.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactRows.hpp>
+#include <Harmos_LocalCell.hpp>
 
 #include <stdexcept>
 
@@ -34,20 +35,6 @@ enum RowItem : int
   ItemLength,
   row_item_width
 };
-
-KOKKOS_INLINE_FUNCTION int localCell(Mesh const &mesh, long long global)
-{
-  int low = 0, high = mesh.num_cells;
-  while (low < high)
-  {
-    int const middle = low + (high - low) / 2;
-    if (mesh.cell_global(middle) < global)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < mesh.num_cells && mesh.cell_global(low) == global ? low : -1;
-}
 
 KOKKOS_INLINE_FUNCTION void packRow(Mesh const &mesh, ContactRow const &row, PackedRows const &item, int i)
 {
