@@ -278,7 +278,6 @@ void checkAxisymmetric(DeckChecker const &check, Deck const &deck)
   check.require(deck.lagrange.gravity[0] == 0.0, "gravity", "it has a radial part" + why + "; expected: [0, g]");
   check.require(deck.prescribed.kind == FieldKind::None, "prescribed_velocity/field",
                 "the fields are planar" + why + "; expected: none");
-  check.require(deck.remap.order < 3, "numerics/remap/order", "3 is planar" + why + "; expected: 1 or 2");
   for (BodySpec const &body : deck.bodies)
   {
     std::string const path = "bodies/" + body.name;

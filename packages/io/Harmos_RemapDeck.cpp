@@ -133,8 +133,6 @@ RemapDeck readRemapDeckText(std::string const &text, std::string const &file, st
           "the field is not positive everywhere; expected: energy, or field sine with base above 1");
   require(deck.order < 3 || deck.scheme == RemapScheme::Intersection || deck.scheme == RemapScheme::Swept, file,
           "order", "3 is for schemes swept and intersection");
-  require(deck.geometry == Geometry::Planar || deck.order < 3, file, "order",
-          "3 is planar with geometry axisymmetric; expected: 1 or 2");
   require(deck.geometry == Geometry::Planar || deck.scheme == RemapScheme::Swept ||
               deck.scheme == RemapScheme::Intersection,
           file, "scheme", "it is planar with geometry axisymmetric; expected: swept or intersection");

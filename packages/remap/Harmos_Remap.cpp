@@ -215,8 +215,6 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     throw std::runtime_error("remap: order " + std::to_string(options.order) + " is none of 1, 2, 3");
   if (options.order == 3 && options.swept_faces && options.hessian == RemapHessian::Contour)
     throw std::runtime_error("remap: contour Hessians are by intersection alone; switch swept_faces off");
-  if (options.order == 3 && mesh.geometry == Geometry::Axisymmetric)
-    throw std::runtime_error("remap: order 3 is planar; axisymmetric meshes take orders 1 and 2");
   if (kinematics == Kinematics::Lagrangian)
     throw std::runtime_error("remap: lagrangian kinematics has no remap");
   if (options.return_kinetic_defect && state.tracks_damage)

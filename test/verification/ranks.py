@@ -35,7 +35,8 @@ def test_translation_patch():
 
 
 def test_third_order_with_swept_faces():
-    clean(compare("translation_patch/deck.yaml", {"numerics/remap/order": 3}))
+    for deck in "translation_patch/deck.yaml", "taylor_rod_axisymmetric/deck.yaml":
+        clean(compare(deck, {"numerics/remap/order": 3}))
 
 
 def test_two_bars():

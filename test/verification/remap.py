@@ -68,6 +68,12 @@ def test_rings_are_remapped_as_planar_cells_are():
     r = remap("random.yaml", geometry="axisymmetric", limiter="range inside", cells="[32.0, 64.0, 128.0]")
     for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
         check("rings, random: L1", error, peer)
+    for scheme in ["swept", "intersection"]:
+        r = remap("random.yaml", geometry="axisymmetric", scheme=scheme, order=3, limiter="none", cells="[32.0, 64.0, 128.0]")
+        check(f"rings, third order, {scheme}: slope below 3 by", 3.0 - r["order_L1"][2], 0.2)
+        r = remap(geometry="axisymmetric", scheme=scheme, order=3, cells="[32.0]")
+        check(f"rings, third order, {scheme}: L1", r["L1"][0], 2.08e-2)
+        conserves_within_range(f"rings, third order, {scheme}", r)
 
 
 def test_the_field_alone_on_random_meshes():
@@ -100,8 +106,8 @@ def test_random_meshes_orders_of_accuracy():
 
 
 def test_any_number_of_ranks_gives_the_same_errors():
-    for scheme, order in [("intersection", 2), ("field intersection", 2), ("swept", 3)]:
-        one, two, four = (remap(cells="[32.0]", scheme=scheme, order=order, ranks=n) for n in (1, 2, 4))
+    for scheme, order, geometry in [("intersection", 2, "planar"), ("field intersection", 2, "planar"), ("swept", 3, "planar"), ("intersection", 3, "axisymmetric")]:
+        one, two, four = (remap(cells="[32.0]", scheme=scheme, order=order, geometry=geometry, ranks=n) for n in (1, 2, 4))
         for r in two, four:
             for column in ["L1", "L2"]:
                 check(f"{scheme}, order {order}: {column} on more ranks", abs(r[column][0] / one[column][0] - 1.0), 1e-12)
@@ -136,7 +142,6 @@ def test_what_makes_no_sense_is_refused():
     assert "intersection" in remap(scheme="field intersection", order=3, expect=2)
     assert "expected" in remap(scheme="field intersection", limiter="van leer", expect=2)
     assert "expected" in remap(scheme="field intersection", geometry="axisymmetric", expect=2)
-    assert "planar" in remap(order=3, geometry="axisymmetric", expect=2)
     assert "unknown" in remap(limitor="none", expect=2).lower()
 
 

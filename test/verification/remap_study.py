@@ -78,8 +78,8 @@ steps. Below, above: how far beyond the range of the start f ever went. Time: of
 
 
 def schemes_of(title):
-    if title.startswith("Rings"):  # planar: third order, the field alone, comparators
-        return {name: scheme for name, scheme in OWN.items() if scheme.get("order", 2) < 3 and not name.startswith("field")}
+    if title.startswith("Rings"):  # planar: the field alone, comparators
+        return {name: scheme for name, scheme in OWN.items() if not name.startswith("field")}
     return OWN if title.startswith("One") else {**OWN, **COMPARATORS}
 
 

@@ -140,8 +140,6 @@ TEST(DeckErrors, WhatHasNoMeaningAboutAnAxis_isRefused)
                                 "axisymmetric and mesh/x/from 0; expected: slip wall");
   EXPECT_EQ(about_axis({from, left, "gravity=[1, 0]"}),
             "deck.yaml: gravity: it has a radial part with geometry axisymmetric; expected: [0, g]");
-  EXPECT_EQ(about_axis({from, left, "numerics/remap/order=3", "numerics/remap/swept_faces=false"}),
-            "deck.yaml: numerics/remap/order: 3 is planar with geometry axisymmetric; expected: 1 or 2");
   EXPECT_HAS(about_axis({from, left}), "bodies/ring/angular_velocity: a ring does not turn with geometry axisymmetric");
 }
 

@@ -17,28 +17,39 @@ KOKKOS_INLINE_FUNCTION Vector2 acceptorOrigin(Mesh const &mesh, int cell)
   return {mesh.node_position(node, 0), mesh.node_position(node, 1)};
 }
 
-/// Integrals of the monomials up to degree 4: degree n, power k of y at n (n + 1) / 2 + k.
-struct QuarticMoments
+/// Integrals of the monomials up to degree 4 or 5: degree n, power k of y at n (n + 1) / 2 + k.
+template <int Degree>
+struct HighMoments
 {
-  static constexpr int count = 15;
+  static_assert(Degree == 4 || Degree == 5, "more than Moments have, no more than momentsOfVertices finds");
+  static constexpr int count = (Degree + 1) * (Degree + 2) / 2;
   double value[count] = {};
 
   KOKKOS_INLINE_FUNCTION double volume() const { return value[0]; }
   KOKKOS_INLINE_FUNCTION double first(int d) const { return value[1 + d]; }
 };
 
-/// Moments of a simple polygon about the origin, vertices in two arrays.
-template <class M>
-KOKKOS_INLINE_FUNCTION M momentsOfVertices(int size, double const *x, double const *y);
+using QuarticMoments = HighMoments<4>;
+using QuinticMoments = HighMoments<5>;
+
+/// Moments weighted by the radius, about an origin at `radius`, from plane ones about it: the weight is linear.
+KOKKOS_INLINE_FUNCTION QuarticMoments ringMoments(QuinticMoments const &plane, double radius)
+{
+  QuarticMoments m;
+  for (int n = 0; n < 5; ++n)
+    for (int k = 0; k <= n; ++k)
+      m.value[n * (n + 1) / 2 + k] = radius * plane.value[n * (n + 1) / 2 + k] + plane.value[(n + 1) * (n + 2) / 2 + k];
+  return m;
+}
 
 /// An edge a -> b and the origin span a triangle, over which a monomial of degree n has the integral
 /// (a x b) / (n + 2) times its mean along the edge: three Gauss points are exact up to degree 5.
-template <>
-KOKKOS_INLINE_FUNCTION QuarticMoments momentsOfVertices<QuarticMoments>(int size, double const *x, double const *y)
+template <int Degree>
+KOKKOS_INLINE_FUNCTION HighMoments<Degree> highMoments(int size, double const *x, double const *y)
 {
   double const point[3] = {0.5 - 0.5 * 0.7745966692414834, 0.5, 0.5 + 0.5 * 0.7745966692414834};
   double const weight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-  QuarticMoments m;
+  HighMoments<Degree> m;
   double ax = x[size - 1], ay = y[size - 1];
   for (int i = 0; i < size; ++i)
   {
@@ -48,11 +59,12 @@ KOKKOS_INLINE_FUNCTION QuarticMoments momentsOfVertices<QuarticMoments>(int size
     {
       double const px = ax + point[g] * (bx - ax), py = ay + point[g] * (by - ay);
       double const w = c * weight[g];
-      double const power_x[5] = {1.0, px, px * px, px * px * px, px * px * (px * px)};
+      double const px2 = px * px;
+      double const power_x[6] = {1.0, px, px2, px2 * px, px2 * px2, px2 * px2 * px};
       double power_y = w;
-      for (int k = 0; k < 5; ++k)
+      for (int k = 0; k <= Degree; ++k)
       {
-        for (int n = k; n < 5; ++n)
+        for (int n = k; n <= Degree; ++n)
           m.value[n * (n + 1) / 2 + k] += power_x[n - k] * power_y;
         power_y *= py;
       }
@@ -60,10 +72,26 @@ KOKKOS_INLINE_FUNCTION QuarticMoments momentsOfVertices<QuarticMoments>(int size
     ax = bx;
     ay = by;
   }
-  for (int n = 0; n < 5; ++n)
+  for (int n = 0; n <= Degree; ++n)
     for (int k = 0; k <= n; ++k)
       m.value[n * (n + 1) / 2 + k] *= 1.0 / (n + 2);
   return m;
+}
+
+/// Moments of a simple polygon about the origin, vertices in two arrays.
+template <class M>
+KOKKOS_INLINE_FUNCTION M momentsOfVertices(int size, double const *x, double const *y);
+
+template <>
+KOKKOS_INLINE_FUNCTION QuarticMoments momentsOfVertices<QuarticMoments>(int size, double const *x, double const *y)
+{
+  return highMoments<4>(size, x, y);
+}
+
+template <>
+KOKKOS_INLINE_FUNCTION QuinticMoments momentsOfVertices<QuinticMoments>(int size, double const *x, double const *y)
+{
+  return highMoments<5>(size, x, y);
 }
 
 /// Harmos::moments for vertices in two arrays.

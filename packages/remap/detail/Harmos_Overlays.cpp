@@ -99,7 +99,7 @@ struct SlotPack
   }
 };
 
-/// Finder: PolynomialFinder, QuadraticFinder.
+/// Finder: PolynomialFinder, QuadraticFinder, or those for rings.
 template <class Finder>
 struct IntersectFunctor : Finder
 {
@@ -360,10 +360,14 @@ void intersect(Input const &in, Classes const &classes, StageState const &stage,
   grow(overlays.residue, "residue", donors.num);
   PolynomialFinder const finder{in, classes, stage, donors};
   RangePolicy const range(0, classes.num_interface);
-  if (in.options.order == 3)
+  bool const rings = in.mesh.geometry == Geometry::Axisymmetric;
+  if (in.options.order == 3 && rings)
+    Kokkos::parallel_for("Harmos::remap::intersect", range,
+                         IntersectFunctor<RingQuadraticFinder>(RingQuadraticFinder(finder), overlays, bookings));
+  else if (in.options.order == 3)
     Kokkos::parallel_for("Harmos::remap::intersect", range,
                          IntersectFunctor<QuadraticFinder>(QuadraticFinder(finder), overlays, bookings));
-  else if (in.mesh.geometry == Geometry::Axisymmetric)
+  else if (rings)
     Kokkos::parallel_for("Harmos::remap::intersect", range,
                          IntersectFunctor<RingPolynomialFinder>(RingPolynomialFinder(finder), overlays, bookings));
   else

@@ -94,7 +94,7 @@ struct QuadraticFinder : PolynomialFinder
       return spreadOf(donor);
     int const pair = donor < 0 ? in.pairs.offset(cell) : donors.head(donor).pair;
     Region const region = in.regions.region(in.mesh, in.pairs, pair);
-    Moments<2> const m = moments<2>(region, region[0]);
+    Moments<2> const m = moments<2>(region, region[0], areaWeight(in.mesh.geometry, region[0]));
     Vector2 const d = m.centroid();
     return {centroid,
             {m.second(0, 0) / m.volume() - d[0] * d[0], m.second(0, 1) / m.volume() - d[0] * d[1],
@@ -399,6 +399,23 @@ struct QuadraticFinder : PolynomialFinder
         p.c[i].corner.part[part] = of_corner * p.c[i].corner.part[part];
       }
     }
+  }
+};
+
+/// The same where areas are weighted by the radius: rings. Means and second moments of the fit are those of the rings,
+/// so that it stays exact for quadratics; the products of density and primitives take plane moments to the fifth.
+struct RingQuadraticFinder : QuadraticFinder
+{
+  using PlaneMoments = QuinticMoments;
+
+  KOKKOS_INLINE_FUNCTION explicit RingQuadraticFinder(PolynomialFinder const &finder) : QuadraticFinder(finder) {}
+  KOKKOS_INLINE_FUNCTION static OverlayMoments measured(PlaneMoments const &m, double radius)
+  {
+    return ringMoments(m, radius);
+  }
+  KOKKOS_INLINE_FUNCTION OverlayMoments wholeMoments(int donor, MovedVertices const &v) const
+  {
+    return ringMoments(momentsOfVertices<QuinticMoments>(v.size, v.x, v.y), donors.shape(donor, 1));
   }
 };
 

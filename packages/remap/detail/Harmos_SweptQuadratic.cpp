@@ -33,18 +33,12 @@ KOKKOS_INLINE_FUNCTION SweptCorners sweptCorners(SweptStage const &stage, int ce
   return c;
 }
 
-KOKKOS_INLINE_FUNCTION void addSquare(double weight, Vector2 const &x, double (&second)[3])
+/// Central second moments of a polygon over its volume, which is known but for its sign, as is the centroid.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION void spreadOfPolygon(Polygon<Capacity> const &q, Geometry geometry, Vector2 const &centroid,
+                                            double volume, double (&second)[3])
 {
-  second[0] += weight * x[0] * x[0];
-  second[1] += weight * x[0] * x[1];
-  second[2] += weight * x[1] * x[1];
-}
-
-/// Central second moments over the volume; of the signed area where edges cross.
-KOKKOS_INLINE_FUNCTION void spreadOfQuadrilateral(Quadrilateral const &q, Vector2 const &centroid, double volume,
-                                                  double (&second)[3])
-{
-  Moments<2> const m = moments<2>(q, centroid);
+  Moments<2> const m = moments<2>(q, centroid, areaWeight(geometry, centroid));
   second[0] = m.second(0, 0) / volume;
   second[1] = m.second(0, 1) / volume;
   second[2] = m.second(1, 1) / volume;
@@ -52,33 +46,38 @@ KOKKOS_INLINE_FUNCTION void spreadOfQuadrilateral(Quadrilateral const &q, Vector
 
 /// Covariance of what face k sweeps out of the cell, whose volume and centroid are known: the quadrilateral between the
 /// face before and after, or one of two triangles where these cross, with the end that goes out and the crossing as
-/// corners.
-KOKKOS_INLINE_FUNCTION Spread spreadOfSwept(SweptCorners const &c, int k, double volume, Vector2 const &centroid)
+/// corners (sweptGeometry finds them alike).
+KOKKOS_INLINE_FUNCTION Spread spreadOfSwept(SweptCorners const &c, int k, Geometry geometry, double volume,
+                                            Vector2 const &centroid)
 {
   int const l = (k + 1) % 4;
   Spread s{centroid, {}};
+  Vector2 const u_k = c.moved[k] - c.home[k], u_l = c.moved[l] - c.home[l], start = 0.5 * (c.moved[k] + c.home[k]);
+  Vector2 const edge = 0.5 * (c.moved[l] + c.home[l]) - start;
+  double const at_k = cross(u_k, edge), at_l = cross(u_l, edge);
+  if (at_k * at_l < 0.0)
+  {
+    double const along = at_k / (at_k - at_l), back = 1.0 - along;
+    double const apart = -dot(back * u_k + along * u_l, edge) / dot(edge, edge), q = 0.25 * apart * apart;
+    int const out = at_k > 0.0 ? k : l;
+    if (along * along > q && back * back > q)
+    {
+      Polygon<3> triangle;
+      triangle.size = 3;
+      triangle[0] = c.home[out];
+      triangle[1] = c.moved[out];
+      triangle[2] = start + along * edge + (0.25 * apart) * (u_l - u_k);
+      spreadOfPolygon(triangle, geometry, centroid, out == k ? volume : -volume, s.second);
+      return s;
+    }
+  }
   Quadrilateral q;
   q.size = 4;
   q[0] = c.home[k];
   q[1] = c.home[l];
   q[2] = c.moved[l];
   q[3] = c.moved[k];
-  Vector2 const edge = 0.5 * ((c.moved[l] + c.home[l]) - (c.moved[k] + c.home[k]));
-  double const at_k = cross(c.moved[k] - c.home[k], edge), at_l = cross(c.moved[l] - c.home[l], edge);
-  if (at_k * at_l < 0.0)
-  {
-    int const out = at_k > 0.0 ? k : l;
-    Vector2 const a = c.moved[out], b = c.home[out], p = 3.0 * centroid - (a + b);
-    double const triangle = 0.5 * Math::fabs(cross(a - p, b - p));
-    if (Math::fabs(triangle - volume) < 1e-6 * volume)
-    {
-      for (Vector2 const &corner : {a, b, p})
-        addSquare(1.0 / 12.0, corner - centroid, s.second);
-      return s;
-    }
-  }
-  double const area = 0.5 * (at_k + at_l);
-  spreadOfQuadrilateral(q, centroid, area > 0.0 ? -area : area, s.second);
+  spreadOfPolygon(q, geometry, centroid, at_k + at_l > 0.0 ? -volume : volume, s.second);
   return s;
 }
 
@@ -97,7 +96,7 @@ struct SweptSpreadFunctor
       q[k] = c.moved[k];
     double const *row = stage.cellRow(cell);
     double second[3];
-    spreadOfQuadrilateral(q, {row[CentroidX], row[CentroidY]}, row[MovedVolume], second);
+    spreadOfPolygon(q, stage.geometry, {row[CentroidX], row[CentroidY]}, row[MovedVolume], second);
     for (int i = 0; i < 3; ++i)
       stage.spread(cell & stage.mask, i) = second[i];
   }
@@ -268,7 +267,7 @@ struct SweptQuadraticFunctor
       staying_volume -= d.swept_volume[k];
       Vector2 const offset{stage.centroidRow(cell)[2 * k], stage.centroidRow(cell)[2 * k + 1]};
       if (d.swept_volume[k] > 0.0)
-        d.swept[k] = spreadOfSwept(corners, k, d.swept_volume[k], d.spread.centroid + offset);
+        d.swept[k] = spreadOfSwept(corners, k, stage.geometry, d.swept_volume[k], d.spread.centroid + offset);
     }
     fit(d);
 

@@ -135,7 +135,7 @@ void sweptFluxes(SweptStage const &stage, int begin, int end);
 /// The moved cells' spreads, and fluxes of limited quadratics: fitted over the vertex neighbours of the same material,
 /// without the derivatives that those do not determine (QuadraticFit), integrated over the swept areas exactly by
 /// volume; by mass to third order: the mass centroid of a part with covariance C is C grad rho / rho from its own. One
-/// factor a field and cell limits as sweptFluxes does, to the range of the vertex neighbours. Planar.
+/// factor a field and cell limits as sweptFluxes does, to the range of the vertex neighbours.
 void sweptSpread(SweptStage const &stage, int begin, int end);
 void sweptQuadraticFluxes(SweptStage const &stage, int begin, int end);
 

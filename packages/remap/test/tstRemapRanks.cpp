@@ -15,9 +15,12 @@ Vector2 slip(int material, Vector2 const &x)
   return s * Vector2{0.011 + 0.004 * material, 0.009 * std::cos(3.0 * x[1]) - 0.005 * material};
 }
 
-Scene makeScene(std::vector<Layer> const &layers, std::vector<int> const &owner, int halo, int order = 2)
+Scene makeScene(std::vector<Layer> const &layers, std::vector<int> const &owner, int halo, int order = 2,
+                bool about_axis = false)
 {
   Scene scene(24, 20, 0.2, twoLaws());
+  if (about_axis)
+    scene.aboutAxis();
   scene.options.return_kinetic_defect = true;
   scene.options.merge_below = 1e-2; // many merges
   scene.options.order = order;
@@ -59,10 +62,13 @@ TEST(Ranks, ownedCellsOfAPart_holdTheBitsOfTheWhole)
 TEST(Ranks, ownedCellsOfAPart_holdTheBitsOfTheWholeInThirdOrder)
 {
   std::vector<Layer> const layers = {disc(0, {0.45, 0.5}, 0.2), rest(1)};
-  RemapResult const all = makeScene(layers, {}, 0, 3).remapped();
-  std::vector<int> owner(24 * 20);
-  for (int cell = 0; cell < 24 * 20; ++cell)
-    owner[cell] = cell % 24 < 11 + (cell / 24) % 3 ? 0 : 1;
-  Scene part = makeScene(layers, owner, 5, 3);
-  EXPECT_EQ(differences(part, part.remapped(), all), 0);
+  for (bool about_axis : {false, true})
+  {
+    RemapResult const all = makeScene(layers, {}, 0, 3, about_axis).remapped();
+    std::vector<int> owner(24 * 20);
+    for (int cell = 0; cell < 24 * 20; ++cell)
+      owner[cell] = cell % 24 < 11 + (cell / 24) % 3 ? 0 : 1;
+    Scene part = makeScene(layers, owner, 5, 3, about_axis);
+    EXPECT_EQ(differences(part, part.remapped(), all), 0) << about_axis;
+  }
 }
