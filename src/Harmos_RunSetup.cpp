@@ -4,9 +4,11 @@
 #include "Harmos_PrescribedCycle.hpp"
 
 #include <Harmos_DeckDifference.hpp>
+#include <Harmos_DeckReader.hpp>
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Partition.hpp>
+#include <Harmos_ResultFiles.hpp>
 #include <Harmos_TpetraExchange.hpp>
 
 #include <Teuchos_CommHelpers.hpp>
@@ -29,11 +31,10 @@ std::string folderProblem(Run const &run)
   namespace fs = std::filesystem;
   std::error_code error;
   fs::path const directory = run.options.directory;
-  bool const has_results =
-      fs::exists(directory / "history.csv", error) || fs::exists(directory / "summary.json", error);
-  if (has_results && !run.options.force && !run.start.append)
-    return "output directory '" + directory.string() +
-           "' holds results; use --force to overwrite them, or another --output";
+  std::vector<fs::path> const results = resultFiles(directory);
+  if (!results.empty() && !run.options.force && !run.start.append)
+    return "output directory '" + directory.string() + "' holds results (" + results.front().filename().string() +
+           "); use --force to overwrite them, or another --output";
   if (run.start.append && fs::exists(directory / "history.csv", error))
   {
     std::vector<std::string> names;
@@ -50,21 +51,6 @@ std::string folderProblem(Run const &run)
   if (::access(directory.c_str(), W_OK) != 0)
     return "cannot write to output directory '" + directory.string() + "': " + std::strerror(errno);
   return "";
-}
-
-/// What an earlier run left and this one would not replace.
-void removeStale(std::string const &directory)
-{
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (char const *stale : {"summary.json", "fields.xdmf", "fields.pvd", "probes.csv", "tracers.csv"})
-    fs::remove(fs::path(directory) / stale, error);
-  std::vector<fs::path> checkpoints;
-  for (auto const &entry : fs::directory_iterator(directory, error))
-    if (entry.path().extension() == ".h5" && entry.path().stem().string().rfind("checkpoint_", 0) == 0)
-      checkpoints.push_back(entry.path());
-  for (fs::path const &file : checkpoints)
-    fs::remove(file, error);
 }
 
 /// Contact looks for its partner as far as the square root of a cell's area: the halo holds what lies two cells away.
@@ -149,6 +135,20 @@ void restoreBonds(Run &run, std::vector<double> const &tracers, std::vector<doub
                        values[2 * i + 1] != 0.0});
 }
 
+bool canBreak(PairInteraction const &interaction)
+{
+  return interaction.kind == Interaction::Bonded && interaction.strength.limited();
+}
+
+/// Whether two bodies have a bond with a strength that an earlier deck of the same bodies did not give them.
+bool bondsAnew(Deck const &before, Deck const &now)
+{
+  for (std::size_t i = 0; i < now.interaction.size(); ++i)
+    if (canBreak(now.interaction[i]) && !canBreak(before.interaction[i]))
+      return true;
+  return false;
+}
+
 /// A restart keeps the mesh and the bodies; what else of the physics has changed it names in a warning.
 void compareDecks(Run &run, std::string const &before)
 {
@@ -161,6 +161,9 @@ void compareDecks(Run &run, std::string const &before)
     if (path == "geometry" || begins("bodies/") || (begins("mesh/") && !begins("mesh/smoother")))
       throw std::runtime_error("it was written with another value of " + path +
                                " than the deck's; a restart keeps mesh and bodies");
+    if (begins("interactions/") && bondsAnew(readDeckText(before, run.options.restart, {}), run.deck))
+      throw std::runtime_error("it was written with another value of " + path +
+                               " than the deck's; bonds with a strength are placed when a run begins");
     changed += (changed.empty() ? "" : ", ") + path;
   }
   if (!changed.empty())
@@ -327,8 +330,10 @@ void claimDirectory(Run &run)
   std::string const problem = firstCause(*run.comm, first ? folderProblem(run) : "");
   if (!problem.empty())
     throw DeckError(problem);
-  if (first && !run.start.restarted)
-    removeStale(run.options.directory);
+  // What an earlier run left goes, also what this one would not replace.
+  if (first && !run.start.append)
+    for (fs::path const &file : resultFiles(run.options.directory))
+      fs::remove(file, error);
 }
 
 } // namespace Harmos

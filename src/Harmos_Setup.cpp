@@ -198,6 +198,15 @@ std::vector<double> impedances(std::vector<Material> const &materials)
   return result;
 }
 
+/// Of a body with a contact wall that is a block.
+PairInteraction wallInteraction(Boundary const &wall)
+{
+  PairInteraction interaction;
+  interaction.kind = wall.friction > 0.0 ? Interaction::Friction : Interaction::Sliding;
+  interaction.friction = wall.friction;
+  return interaction;
+}
+
 } // namespace
 
 Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange const &exchange)
@@ -236,7 +245,10 @@ Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange c
   auto interaction = Kokkos::create_mirror_view(scene.constraint.interaction);
   for (int a = 0; a < m; ++a)
     for (int b = 0; b < m; ++b)
-      interaction(a, b) = a < f && b < f ? deck.interaction[a * f + b] : PairInteraction();
+    {
+      int const wall = std::max(a, b) - f;
+      interaction(a, b) = wall < 0 ? deck.interaction[a * f + b] : wallInteraction(deck.boundary[walls[wall]]);
+    }
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
   scene.constraint.impedance = deviceCopy("impedance", impedances(materials));
   scene.remap = deck.remap;

@@ -7,6 +7,7 @@
 #include "Harmos_Version.hpp"
 
 #include <Harmos_DeckSchema.hpp>
+#include <Harmos_Failure.hpp>
 #include <Harmos_Summary.hpp>
 
 #include <algorithm>
@@ -56,6 +57,35 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.restored_volume += report.restored_volume;
 }
 
+/// What to say of a condensed material without a failure law that is stretched to less than half of its density: its
+/// equation of state is not meant for that, which is often why a run ends.
+std::string stretchedWithoutFailure(Run const &run, int material)
+{
+  LawSpec const &spec = run.deck.laws[run.deck.fields[material].law];
+  if (spec.rigid || canFail(spec.law) || spec.law.eos == EosKind::IdealGas)
+    return "";
+  CellMaterialPairs const pairs = run.state.pairs;
+  auto const record = run.state.state.record;
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::largestSpecificVolume", RangePolicy(0, pairs.num_pairs),
+      KOKKOS_LAMBDA(int pair, double &value) {
+        double const specific_volume = record(pair, SpecificVolume);
+        if (pairs.material(pair) == material && specific_volume > value)
+          value = specific_volume;
+      },
+      Kokkos::Max<double>(largest));
+  double const ratio = largest * spec.law.density0;
+  if (!(ratio > 2.0))
+    return "";
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "; it is stretched to %.2g of its density and has no failure law (spall_pressure, spall_stress, damage)",
+      1.0 / ratio);
+  return text;
+}
+
 std::string placeOf(Run const &run, int cell, int material)
 {
   std::string place;
@@ -66,7 +96,7 @@ std::string placeOf(Run const &run, int cell, int material)
   }
   std::vector<std::string> const names = materialNames(run.deck);
   if (material >= 0 && material < static_cast<int>(names.size()))
-    place += ", material " + names[material];
+    place += ", material " + names[material] + stretchedWithoutFailure(run, material);
   return place;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Checkpoint.hpp>
+#include <Harmos_ResultFiles.hpp>
 
 #include <detail/Harmos_AtomicFile.hpp>
 #include <detail/Harmos_CheckpointRecord.hpp>
@@ -21,20 +22,14 @@ std::map<long long, std::string> checkpointsIn(std::string const &directory)
   if (!std::filesystem::is_directory(directory))
     return found;
   for (auto const &entry : std::filesystem::directory_iterator(directory))
-  {
-    std::string const stem = entry.path().stem().string();
-    std::string const digits = stem.substr(std::min<std::size_t>(stem.size(), 11));
-    if (entry.path().extension() == ".h5" && stem.rfind("checkpoint_", 0) == 0 && !digits.empty() &&
-        digits.find_first_not_of("0123456789") == std::string::npos)
-      found[std::stoll(digits)] = entry.path().string();
-  }
+    if (long long const cycle = checkpointCycle(entry.path()); cycle >= 0)
+      found[cycle] = entry.path().string();
   return found;
 }
 
 std::string checkpointName(std::string const &directory, long long cycle)
 {
-  std::string const digits = std::to_string(cycle);
-  return directory + "/checkpoint_" + std::string(digits.size() < 9 ? 9 - digits.size() : 0, '0') + digits + ".h5";
+  return directory + '/' + checkpointFileName(cycle);
 }
 
 /// Keep this cycle's checkpoint and the newest before it.

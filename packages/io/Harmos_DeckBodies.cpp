@@ -65,8 +65,8 @@ void convertMotion(DeckChecker const &check, ParameterList const &list, std::str
   check.require(body.motion != RigidMotion::Free || body.shape.kind != ShapeKind::HalfPlane, keyPath(path, "motion"),
                 "a half-plane has no finite mass; expected: fixed or prescribed");
   check.require(body.radial_velocity == 0.0, keyPath(path, "radial_velocity"), "means nothing for a rigid body");
-  for (char const *key : {"internal_energy", "pressure"})
-    check.require(!list.isParameter(key), keyPath(path, key), "means nothing for a rigid body");
+  for (char const *key : {"density", "internal_energy", "pressure"})
+    check.require(!list.isParameter(key), keyPath(path, key), "means nothing for a rigid body, whose law has the density");
 }
 
 /// Quadrilateral sides along the axes of the body's frame as arcs, and the cells' grading.

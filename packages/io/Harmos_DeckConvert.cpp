@@ -85,6 +85,9 @@ void convertStrength(DeckChecker const &check, LawNumbers const &value, std::str
   flow.softening_exponent = value("softening_exponent", 1.0);
   flow.initial_strain = value("initial_plastic_strain");
   flow.largest_yield = value("largest_yield_stress", flow.largest_yield);
+  check.require(flow.largest_yield >= law.yield, keyPath(path, "largest_yield_stress"),
+                numberText(flow.largest_yield) + " is below yield_stress = " + numberText(law.yield) +
+                    "; expected: at least that");
   flow.pressure_coefficient = value("pressure_coefficient");
   flow.temperature_coefficient = value("temperature_coefficient");
   flow.melting_exponent = value("melting_exponent");
@@ -108,6 +111,11 @@ void convertFailure(DeckChecker const &check, LawNumbers const &value, std::stri
   check.require(failure.spall_pressure >= no_limit || failure.spall_pressure <= law.tension_limit,
                 keyPath(path, "spall_pressure"),
                 numberText(failure.spall_pressure) + " is never reached: tension_limit = " +
+                    numberText(law.tension_limit) + " cuts the tension off; expected: at most that");
+  check.require(law.strength != StrengthKind::None || failure.spall_stress >= no_limit ||
+                    failure.spall_stress <= law.tension_limit,
+                keyPath(path, "spall_stress"),
+                numberText(failure.spall_stress) + " is never reached without strength: tension_limit = " +
                     numberText(law.tension_limit) + " cuts the tension off; expected: at most that");
   ParameterList const &list = value.list;
   failure.damages = list.isParameter("damage") && list.get<std::string>("damage") == "johnson-cook";

@@ -79,9 +79,28 @@ std::string openBracketHint(std::string const &text)
   return "";
 }
 
+/// Teuchos' parser drops a scalar beside the outermost map without a word.
+void refuseOutermostKeys(std::string const &text, std::string const &file)
+{
+  std::istringstream lines(text);
+  std::string line, first;
+  for (int number = 1; std::getline(lines, line); ++number)
+  {
+    std::size_t const colon = line.find(':');
+    if (line.empty() || std::string(" \t\r#%").find(line[0]) != std::string::npos || line.rfind("---", 0) == 0 ||
+        line.rfind("...", 0) == 0 || colon == std::string::npos)
+      continue;
+    if (!first.empty())
+      throw DeckError(file + ": " + line.substr(0, colon) + ": line " + std::to_string(number) +
+                      " stands beside the outermost key " + first + "; expected: below it, with an indent");
+    first = line.substr(0, colon);
+  }
+}
+
 ParameterList parseYaml(std::string const &text, std::string const &file)
 {
   std::string const input = forParser(text);
+  refuseOutermostKeys(input, file);
   if (input.find_first_not_of(" \t\r\n") == std::string::npos)
     throw DeckError(file + ": empty; expected: a map under the outermost key " + root_name);
   try

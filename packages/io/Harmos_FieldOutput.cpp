@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_FieldOutput.hpp>
+#include <Harmos_ResultFiles.hpp>
 
 #include <detail/Harmos_ArrangedFields.hpp>
 #include <detail/Harmos_AtomicFile.hpp>
@@ -10,12 +11,6 @@
 
 namespace Harmos
 {
-
-std::string frameStem(int number)
-{
-  std::string const digits = std::to_string(number);
-  return "fields_" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
-}
 
 namespace
 {
@@ -34,16 +29,6 @@ FieldFrame readFrame(std::string const &path, int number)
   frame.segments = file.readAttribute<long long>("/", "num_segments");
   frame.has_damage = file.exists("/pairs/damage");
   return frame;
-}
-
-/// Number of an output's file (fields_000012.h5, fields_000012_3.vtu), or -1 for any other file.
-int frameNumber(std::filesystem::path const &path)
-{
-  std::string const name = path.filename().string();
-  if (name.rfind("fields_", 0) != 0)
-    return -1;
-  std::size_t const end = name.find_first_not_of("0123456789", 7);
-  return end == std::string::npos || end == 7 ? -1 : std::stoi(name.substr(7, end - 7));
 }
 
 /// Outputs in the folder up to a cycle; files of later ones are removed.

@@ -56,9 +56,6 @@ private:
 /// The text of fields.xdmf: a temporal collection of (cells, pairs, interface).
 std::string xdmfText(std::vector<FieldFrame> const &frames);
 
-/// fields_000012
-std::string frameStem(int number);
-
 } // namespace Harmos
 
 #endif

@@ -46,7 +46,7 @@ KOKKOS_INLINE_FUNCTION double homologousTemperature(Material const &m, double te
 /// Strain to fracture eps_f = (D1 + D2 exp(D3 x)) (1 + D4 ln max(rate / rate0, 1)) (1 + D5 T*), x = -p / q.
 ///
 /// Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31-48. Their tests reach x = 1.5, where it is held; not below
-/// least_failure_strain (some published sets give negative values there).
+/// least_failure_strain (some published sets give negative values there). D3 x is held at 100.
 /// \param triaxiality -p / q. \param rate Of the equivalent plastic strain [1/s]. \param homologous T*.
 constexpr double largest_triaxiality = 1.5;
 constexpr double least_failure_strain = 1e-6;
@@ -54,7 +54,8 @@ constexpr double least_failure_strain = 1e-6;
 KOKKOS_INLINE_FUNCTION double failureStrain(Material const &m, double triaxiality, double rate, double homologous)
 {
   double const *d = m.failure.d;
-  double const shape = d[0] + d[1] * Math::exp(d[2] * Math::min(triaxiality, largest_triaxiality));
+  double const power = Math::min(d[2] * Math::min(triaxiality, largest_triaxiality), 100.0);
+  double const shape = d[0] + d[1] * Math::exp(power);
   double const speed = 1.0 + d[3] * Math::log(Math::max(rate / m.flow.reference_rate, 1.0));
   return Math::max(shape * speed * (1.0 + d[4] * homologous), least_failure_strain);
 }
@@ -77,7 +78,7 @@ KOKKOS_INLINE_FUNCTION double damageAfter(Material const &m, FailureState const 
   if (!m.failure.damages || !(s.strain_increment > 0.0))
     return damage;
   double const q = Math::sqrt(3.0 * secondInvariant(s.deviator));
-  // a molten pair has no deviator: its triaxiality is at the end of the range in tension, without bound in compression
+  // without a deviator the triaxiality is at the end of the range in tension, without bound in compression
   double const triaxiality = q > 0.0 ? -p / q : (p > 0.0 ? -1e3 : largest_triaxiality);
   double const hot = homologousTemperature(m, temperature(m, s.specific_volume, s.internal_energy));
   double const next = damage + s.strain_increment / failureStrain(m, triaxiality, s.strain_increment / dt, hot);
@@ -87,13 +88,15 @@ KOKKOS_INLINE_FUNCTION double damageAfter(Material const &m, FailureState const 
 /// The specific volume below `specific_volume`, where p < 0, at which p(sv, e) = 0: to what a failed pair shrinks.
 ///
 /// Bracketed by steps of 2 per cent, which no tension that a law can reach outlasts for long, then regula falsi
-/// (Illinois): |p| <= 1e-12 rho0 c0^2. Where p stays below zero down to half of the volume (no solid state does), that.
+/// (Illinois): |p| <= 1e-12 rho0 c0^2. Where p stays below zero down to half of the volume, or of that at rest where it
+/// is less (no solid state does), that.
 KOKKOS_INLINE_FUNCTION double unstressedVolume(Material const &m, double specific_volume, double internal_energy)
 {
   double const tolerance = 1e-12 * m.density0 * m.sound_speed0 * m.sound_speed0;
+  double const least = 0.5 * Math::min(specific_volume, 1.0 / m.density0);
   double low = specific_volume, high = specific_volume;
   double p_high = equationOfState(m, high, internal_energy).pressure, p_low = p_high;
-  while (p_low < 0.0 && low > 0.5 * specific_volume)
+  while (p_low < 0.0 && low > least)
   {
     high = low;
     p_high = p_low;

@@ -99,7 +99,8 @@ KOKKOS_INLINE_FUNCTION Deviator<T> elasticTrial(Modulus const &shear_modulus, De
 
 /// The same and back to the yield surface, for the laws of flowStress; G and f at the end of the step.
 ///
-/// s = (1 - 3 G d_eps / q) s_trial, d_eps by plasticIncrement; no deviator where f = 0.
+/// s = (1 - 3 G d_eps / q) s_trial, d_eps by plasticIncrement; neither deviator nor plastic strain where f = 0: the
+/// flow of a melt hardens nothing.
 template <class T>
 HARMOS_RARE_FUNCTION ReturnedStress<T> flowDeviator(Material const &m, Deviator<T> turned, StrainIncrement<T> strain,
                                                     T plastic_strain, T specific_volume, T internal_energy, double dt)
@@ -115,8 +116,9 @@ HARMOS_RARE_FUNCTION ReturnedStress<T> flowDeviator(Material const &m, Deviator<
                                 laneOf(modulus, lane));
       });
   T const scale = select(increment > T(0.0), T(1.0 - 3.0 * modulus * increment / Math::max(q, T(1e-300))), T(1.0));
-  T const kept = select(f > T(0.0), scale, T(0.0));
-  return {{kept * trial.xx, kept * trial.yy, kept * trial.xy}, increment};
+  auto const solid = f > T(0.0);
+  T const kept = select(solid, scale, T(0.0));
+  return {{kept * trial.xx, kept * trial.yy, kept * trial.xy}, select(solid, increment, T(0.0))};
 }
 
 /// The deviator and the plastic strain after a strain increment: elasticTrial and radialReturn, or flowDeviator.

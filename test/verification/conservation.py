@@ -21,6 +21,14 @@ def test_two_material_scenes_over_a_thousand_cycles():
           examine("translation_patch/deck.yaml", 500))
 
 
+def test_third_order_moves_bodies_and_leaves_one_at_rest():
+    moving = examine("translation_patch/deck.yaml", 500, **{"numerics/remap/order": 3})
+    still = harmos("translation_patch/deck.yaml", {**THOUSAND, "numerics/remap/order": 3, "run/max_cycles": 100, "run/end_time": 1.0,
+                                                   **{f"bodies/{name}/velocity": "[0, 0]" for name in ("matrix", "disc", "wedge")}})
+    check("kinetic over elastic energy of a cell at rest", still.last("kinetic_energy") / (1000.0 * 1500.0**2), 1e-20)
+    clean(moving, still)
+
+
 def test_heat_returned_by_the_remap_closes_the_total_energy():
     plain = examine("taylor_rod/deck.yaml", 1000)
     heated = examine("taylor_rod/deck.yaml", 1000, **{"numerics/remap/return_kinetic_defect": "true"})

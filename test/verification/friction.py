@@ -2,7 +2,7 @@
 """Friction against Coulomb's law: a block on an incline slides with g (sin a - mu cos a) or stays; a wall that rubs."""
 from math import cos, radians, sin, sqrt, tan
 
-from harness import check, clean, harmos, run
+from harness import ROOT, check, clean, harmos, run
 
 DECK = "incline/deck.yaml"
 G, QUIET = 10.0, {"output/fields/every_time": 0.0, "output/fields/at_end": False}
@@ -96,6 +96,20 @@ def test_a_block_below_the_friction_angle_stays():
     check("mean speed down the plane, of what it would have without friction", abs(way / 0.6) / free, 2e-2)
     print(f"  way {way:.2e} m, without friction {0.5 * free * 0.6:.2e} m")
     clean(r)
+
+
+def test_a_wall_rubs_a_block_in_both_kinematics():
+    deck = ROOT / "test/verification/two_blocks.yaml"
+    block = {"bodies/lower/velocity": "[10.0, 0.0]", "bodies/lower/center": "[0.5, 0.25]", "gravity": "[0.0, -1000.0]",
+             "bodies/upper/center": "[1.5, 0.85]", "bodies/upper/size": "[0.2, 0.2]", "bodies/upper/velocity": "[0.0, 0.0]",
+             "run/end_time": 4.0e-3, **QUIET}
+    for kinematics in ("lagrangian", "xfem"):
+        r = harmos(deck, {**block, "kinematics": kinematics, "boundaries/bottom": "{type: contact wall, friction: 0.5}"})
+        lost = 10.0 - r.last("lower.momentum_x") / r.last("lower.mass")
+        borne = 1000.0 * 4.0e-3 + r.last("lower.momentum_y") / r.last("lower.mass")
+        check(f"{kinematics}: speed lost against mu times the impulse of the wall", abs(lost / (0.5 * borne) - 1.0), 1e-6)
+        assert lost > 1.0
+        clean(r)
 
 
 if __name__ == "__main__":

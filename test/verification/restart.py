@@ -74,6 +74,16 @@ def test_bonds_that_break_before_and_after_the_stop():
     clean(whole, part)
 
 
+def test_bonds_with_a_strength_are_not_made_by_a_restart():
+    part = harmos(BLOCK, {**stop({}, 20), "output/checkpoint/at_end": "true"})
+    good = ["--restart", str(newest_checkpoint(part.directory))]
+    other = pathlib.Path(str(part.directory) + "-bonded")
+    bonded = {**stop({}, 30), "interactions": "{default: bonded, tensile_strength: 1.0e15}"}
+    r = harmos(BLOCK, bonded, directory=other, extra=good, expect=2)
+    assert "interactions/" in r.text and len(r.text.splitlines()) == 1 and not other.exists(), r.text
+    clean(part)
+
+
 def test_disc_through_plate_with_a_row_every_seventh_cycle():
     # The row at cycle 33 was written because the run ended there: the run that goes on takes it back.
     clean(*goes_on(DISC, {"output/history/every_cycles": 7}, same_rows=False))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ResultFiles.hpp>
 #include <detail/Harmos_ArrangedFields.hpp>
 #include <detail/Harmos_AtomicFile.hpp>
 

@@ -228,7 +228,9 @@ TEST(DeckErrors, Yaml_isOneLineWithThePlace)
   EXPECT_HAS(messageOfText("harmos:\n  a: 1\n\tb: 2\n"), "line 3");
   EXPECT_HAS(messageOfText(""), "deck.yaml: empty");
   EXPECT_HAS(messageOfText("harmos: 3\n"), "one map under the outermost key harmos");
-  EXPECT_HAS(messageOfText("harmos:\n  a: 1\nother:\n  b: 1\n"), "one map under the outermost key harmos");
+  for (char const *beside : {"other:\n  b: 1", "gravity: [0.0, -9.81]", "kinematics: single"})
+    EXPECT_HAS(messageOfText(std::string("harmos:\n  a: 1\n") + beside + "\n"),
+               "line 3 stands beside the outermost key harmos");
   EXPECT_HAS(messageOfText("harmoz:\n  a: 1\n"), "outermost key is harmoz; expected: harmos");
 }
 

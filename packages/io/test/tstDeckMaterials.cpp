@@ -154,6 +154,8 @@ TEST(DeckMaterials, FailureThatCannotBe_isRefused)
       message(copper + "tension_limit: 1.0e9, spall_pressure: 2.0e9"),
       "deck.yaml: materials/metal/spall_pressure: 2000000000.0 is never reached: tension_limit = 1000000000.0 cuts "
       "the tension off; expected: at most that");
+  EXPECT_STARTS(message(copper + "tension_limit: 1.0e9, spall_stress: 2.0e9"),
+                "deck.yaml: materials/metal/spall_stress: 2000000000.0 is never reached without strength");
   EXPECT_STARTS(
       message(copper + "spall_pressure: 2.0e9", {"numerics/remap/return_kinetic_defect=true"}),
       "deck.yaml: numerics/remap/return_kinetic_defect: true does not go with materials that can fail (metal)");

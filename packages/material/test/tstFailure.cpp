@@ -66,6 +66,16 @@ TEST(Failure, FailureStrainsOf4340_areThoseOfThePaperSFigures)
   EXPECT_EQ(failureStrain(m, 4.0, 1.0, 0.0), failureStrain(m, largest_triaxiality, 1.0, 0.0));
 }
 
+TEST(Failure, AConstantFailureStrain_isThatAtAnyTriaxiality)
+{
+  Material m = steel();
+  double const constant[5] = {0.3, 0.0, -1.0, 0.0, 0.0};
+  for (int i = 0; i < 5; ++i)
+    m.failure.d[i] = constant[i];
+  for (double const triaxiality : {-1e6, -1e3, 0.0, 1.0})
+    EXPECT_EQ(failureStrain(m, triaxiality, 1.0, 0.0), 0.3);
+}
+
 TEST(Failure, DamageAtConstantTriaxiality_isTheIntegralAndEndsInFailure)
 {
   Material const m = steel();

@@ -215,3 +215,19 @@ TEST(LongitudinalSoundSpeed, MoltenJohnsonCook_isTheBulkOne)
   // vapour: no modulus times a large specific volume
   EXPECT_EQ(longitudinalSoundSpeedSquared(m, c2, 1e4 * sv, 2e7), c2);
 }
+
+TEST(FlowStress, ShearOfAMelt_leavesNoPlasticStrain)
+{
+  for (Material const &m : {johnsonCookCopper(), steinbergCopper()})
+  {
+    double const sv = 1.0 / m.density0, hot = energyAt(m, sv, 2500.0), warm = energyAt(m, sv, 600.0);
+    StrainIncrement<double> const shear = {0.0, 0.0, 0.01};
+    for (double const energy : {hot, warm})
+    {
+      ReturnedStress<double> const r =
+          strainedDeviator(m, Deviator<double>{1e6, 0.0, 0.0}, shear, 0.0, sv, energy, 1e-6);
+      EXPECT_EQ(r.plastic_strain_increment > 0.0, energy == warm);
+      EXPECT_EQ(equivalent(r.deviator) > 0.0, energy == warm);
+    }
+  }
+}
