@@ -55,7 +55,8 @@ struct QuadraticFit
   }
 
   /// Solve for the unknowns in `right`. A second derivative that the neighbours do not determine (across a boundary) is
-  /// zero. \return False where they do not determine the gradient.
+  /// zero, as is any derivative along an axis along which none of them lies (a strip of single cells).
+  /// \return False where they do not determine the rest of the gradient.
   KOKKOS_INLINE_FUNCTION bool solve()
   {
     if (!factorise())
@@ -82,8 +83,18 @@ private:
   KOKKOS_INLINE_FUNCTION bool factorise()
   {
     constexpr double least_pivot = 0.05; // of the diagonal; 0.75 inside a regular mesh, none where a side is missing
+    constexpr double negligible = 1e-10; // of the sum of the parts: differences of positions that are round-off
+    double const least_diagonal = negligible * (matrix[0][0] + matrix[1][1]);
+    if (!(least_diagonal > 0.0))
+      return false;
     for (int i = 0; i < 5; ++i)
     {
+      if (!(matrix[i][i] > least_diagonal))
+      {
+        drop(i);
+        matrix[i][i] = 1.0;
+        continue;
+      }
       double pivot = matrix[i][i];
       for (int j = 0; j < i; ++j)
       {
