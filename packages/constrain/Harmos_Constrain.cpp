@@ -142,12 +142,13 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
     writeHalf(mesh, dof_nodes, predicted, table, half);
     return report;
   }
-  ContactSystem const system = buildContactSystem(rows, dof_nodes, conditions, dof_mass, predicted, table, bodies, dt);
+  BodyTable const table_n = buildBodyTable(bodies_n, num_materials);
+  ContactSystem const system =
+      buildContactSystem(rows, dof_nodes, conditions, dof_mass, {velocity_n, table_n}, {predicted, table}, bodies, dt);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
-  MultiplierSolution const solution =
-      is_explicit ? explicitImpulses({mesh, pairs, velocity_n, buildBodyTable(bodies_n, num_materials), pair_stress},
-                                     system, rows, dt, options, exchange)
-                  : solveMultipliers(mesh, system, rows, dt, options, exchange);
+  MultiplierSolution const solution = is_explicit ? explicitImpulses({mesh, pairs, {velocity_n, table_n}, pair_stress},
+                                                                     system, rows, dt, options, exchange)
+                                                  : solveMultipliers(mesh, system, rows, dt, options, exchange);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;

@@ -28,8 +28,9 @@ struct ContactRow
   double gap;            // along n, >= 0 [length]
   double length;         // of the slave segment [length]
   int tied;
-  double friction; // coefficient
-  int bond;        // number of the nearest bond of a pair whose bonds can break, -1: none
+  double friction;    // coefficient
+  double restitution; // of the closing speed
+  int bond;           // number of the nearest bond of a pair whose bonds can break, -1: none
 };
 
 /// Impulse and area of contact between two materials, for contact.csv: on a by b.
@@ -70,6 +71,10 @@ struct ConstraintReport
 /// v_a) at the point of the row's slave segment, n from a to b. A row with friction has an impulse p_t across n too,
 /// |p_t| <= mu p, that stops the sliding or, at its bound, opposes it. The same p acts on both sides: momentum is
 /// exact.
+///
+/// With restitution e a sliding row that is about to touch, gap/dt + G v* < 0, and closes, G v^{n-1/2} < 0, obeys
+/// Newton's law of impact instead: G v >= -e G v^{n-1/2}, so that its impulse takes p (1 - e)/2 |G v^{n-1/2}| of
+/// energy: none for e = 1. Bodies in lasting contact, G v^{n-1/2} = 0, feel no difference.
 ///
 /// \param dof_mass   num_dof_nodes [kg/m]
 /// \param velocity_n v^{n-1/2}, num_dof_nodes [m/s]: for the work of the impulses

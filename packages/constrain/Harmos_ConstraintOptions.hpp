@@ -19,8 +19,9 @@ enum class Interaction : int
 struct PairInteraction
 {
   Interaction kind = Interaction::Sliding;
-  double friction = 0.0; // Friction: coefficient
-  BondStrength strength; // Bonded
+  double friction = 0.0;    // Friction: coefficient
+  double restitution = 0.0; // Sliding, Friction: part of the closing speed that bodies part with, in [0, 1]
+  BondStrength strength;    // Bonded
 };
 
 /// How the multipliers are found.
@@ -41,14 +42,21 @@ enum class ConstraintMethod : int
   Merged       // all materials at a node stick
 };
 
-/// Where on an interface segment the multipliers stand.
+/// Where on the interface segments the multipliers stand.
 enum class Placement : int
 {
   Midpoint,
-  GaussPoints,  // two
-  SegmentEnds,  // two
-  VitalVertices // one for each vital cell edge that the interface crosses, shared by the segments around it
+  GaussPoints,   // two
+  SegmentEnds,   // two
+  VitalVertices, // one for each vital cell edge that the interface crosses, shared by the segments around it
+  Mortar         // of the same, with the approach integrated over the segments
 };
+
+/// Whether rows share multipliers, which only MultiplierMethod::ProjectedNewton solves for.
+KOKKOS_INLINE_FUNCTION bool sharesMultipliers(Placement placement)
+{
+  return placement == Placement::VitalVertices || placement == Placement::Mortar;
+}
 
 struct ConstraintOptions
 {

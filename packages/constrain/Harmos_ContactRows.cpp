@@ -178,6 +178,7 @@ struct RowBuilder
       return;
     }
     PairInteraction const &law = interaction(row.material_a, row.material_b);
+    row.restitution = law.restitution;
     if (law.kind == Interaction::Friction)
       row.friction = law.friction;
     if (law.kind != Interaction::Bonded || row.gap > bond_gap * Math::sqrt(mesh.cell_area(row.cell_a)))

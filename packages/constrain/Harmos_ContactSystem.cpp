@@ -141,9 +141,19 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
   return number;
 }
 
+/// b along n of a row that is not tied. \param relative G v*
+KOKKOS_INLINE_FUNCTION double approach(ContactRow const &row, double relative, Motion const &before, double dt)
+{
+  double const closing = relative + Math::max(row.gap, 0.0) / dt;
+  if (row.restitution == 0.0 || closing >= 0.0)
+    return closing;
+  double const start = dot(row.normal, relativeVelocity(row, before.velocity, before.bodies));
+  return start < 0.0 ? relative + row.restitution * start : closing;
+}
+
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.
-void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyTable const &table,
-              View<int *> const &free_number, double dt, ContactSystem &system)
+void fillRows(ContactRows const &rows, Motion const &before, Motion const &predicted, View<int *> const &free_number,
+              double dt, ContactSystem &system)
 {
   system.tied = unset<int *>("Harmos::constrain::tied", rows.count);
   system.friction = unset<double *>("Harmos::constrain::friction", rows.count);
@@ -159,32 +169,25 @@ void fillRows(ContactRows const &rows, View<double *[2]> const &predicted, BodyT
         ContactRow const &r = row(i);
         s.tied(i) = r.tied;
         s.friction(i) = r.friction;
-        Vector2 relative{0.0, 0.0};
         for (int side = 0; side < 2; ++side)
         {
-          double const sign = side == 0 ? -1.0 : 1.0;
           int const body = side == 0 ? r.body_a : r.body_b;
-          Vector2 const point = side == 0 ? r.point : r.point + r.gap * r.normal;
           for (int k = 0; k < 4; ++k)
           {
             int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
-            double const w = dof >= 0 ? sign * (side == 0 ? r.weight_a[k] : r.weight_b[k]) : 0.0;
-            s.weight(i, 4 * side + k) = w;
-            if (dof >= 0)
-              relative += w * Vector2{predicted(dof, 0), predicted(dof, 1)};
+            s.weight(i, 4 * side + k) = dof < 0 ? 0.0 : side == 0 ? -r.weight_a[k] : r.weight_b[k];
           }
           s.free_body(i, side) = body >= 0 ? free_number(body) : -1;
           Vector2 arm{0.0, 0.0};
           if (body >= 0)
-          {
-            relative += sign * table.body(body).velocityAt(point);
-            arm = point - table.body(body).centre;
-          }
+            arm = (side == 0 ? r.point : r.point + r.gap * r.normal) - predicted.bodies.body(body).centre;
           s.arm(i, 2 * side) = arm[0];
           s.arm(i, 2 * side + 1) = arm[1];
           s.normal(i, side) = r.normal[side];
         }
-        s.predicted(i, 0) = dot(r.normal, relative) + (r.tied ? 0.0 : Math::max(r.gap, 0.0) / dt);
+        Vector2 const relative = relativeVelocity(r, predicted.velocity, predicted.bodies);
+        double const along = dot(r.normal, relative);
+        s.predicted(i, 0) = r.tied ? along : approach(r, along, before, dt);
         s.predicted(i, 1) = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
       });
 }
@@ -232,8 +235,8 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
 
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                                 View<double *[2]> const &predicted, BodyTable const &table,
-                                 std::vector<RigidBody> const &bodies, double dt)
+                                 Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
+                                 double dt)
 {
   ContactSystem system;
   system.num_rows = rows.count;
@@ -242,7 +245,7 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   numberDofs(rows, dof_nodes.num_dof_nodes, system);
   gatherDofs(dof_nodes, conditions, dof_mass, system);
   View<int *> const free_number = numberFreeBodies(bodies, system);
-  fillRows(rows, predicted, table, free_number, dt, system);
+  fillRows(rows, before, predicted, free_number, dt, system);
   system.diagonal = View<double *[2]>("Harmos::constrain::diagonal", rows.count);
   ContactSystem const s = system;
   Kokkos::parallel_for(

@@ -91,11 +91,40 @@ struct ContactSystem
   }
 };
 
-/// \param predicted v* of all dof nodes; \param bodies Rigid bodies with predicted velocities.
+/// v_b - v_a at a row's point.
+KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<double *[2]> const &velocity,
+                                                BodyTable const &bodies)
+{
+  Vector2 relative{0.0, 0.0};
+  for (int side = 0; side < 2; ++side)
+  {
+    double const sign = side == 0 ? -1.0 : 1.0;
+    int const body = side == 0 ? row.body_a : row.body_b;
+    if (body >= 0)
+      relative += sign * bodies.body(body).velocityAt(side == 0 ? row.point : row.point + row.gap * row.normal);
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = side == 0 ? row.dof_a[k] : row.dof_b[k];
+      double const w = sign * (side == 0 ? row.weight_a[k] : row.weight_b[k]);
+      if (dof >= 0)
+        relative += w * Vector2{velocity(dof, 0), velocity(dof, 1)};
+    }
+  }
+  return relative;
+}
+
+/// Velocities and rigid bodies at one time.
+struct Motion
+{
+  View<double *[2]> velocity; // dof nodes [m/s]
+  BodyTable bodies;
+};
+
+/// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                                 View<double *[2]> const &predicted, BodyTable const &table,
-                                 std::vector<RigidBody> const &bodies, double dt);
+                                 Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
+                                 double dt);
 
 /// Change of the dof velocities by impulses: M^-1 P G^T p. [m/s]
 /// \param impulse num_rows (halo rows included); \param change num_dofs

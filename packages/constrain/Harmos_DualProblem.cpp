@@ -337,7 +337,7 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
     bool const known = i < static_cast<int>(all.key.size()) && all.key[i] == k;
     problem.first.push_back(known ? first[i] : -1);
   }
-  if (placement == Placement::VitalVertices)
+  if (sharesMultipliers(placement))
   {
     std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own.key, exchange);
     int num_groups = 0, coarse = 0;

@@ -53,11 +53,11 @@ struct Spread
   std::vector<Entry> entry; // none: the problem itself
 };
 
-/// The contact problem, and with Placement::VitalVertices that of its groups (vitalGroups): spread^T A spread.
+/// The contact problem, and where rows share multipliers that of their groups (vitalGroups): spread^T A spread.
 struct AssembledProblem
 {
   DualProblem rows;   // one unknown for each direction of a row
-  DualProblem groups; // VitalVertices: of a group
+  DualProblem groups; // sharesMultipliers: of a group
   Spread spread;      // from groups to rows
 };
 

@@ -25,27 +25,6 @@ struct RowForce
     return {s(pair, 0) * n[0] + s(pair, 2) * n[1], s(pair, 2) * n[0] + s(pair, 1) * n[1]};
   }
 
-  /// v_b - v_a at the start of the cycle.
-  KOKKOS_INLINE_FUNCTION Vector2 startVelocity(ContactRow const &r) const
-  {
-    Vector2 v{0.0, 0.0};
-    for (int side = 0; side < 2; ++side)
-    {
-      double const sign = side == 0 ? -1.0 : 1.0;
-      int const body = side == 0 ? r.body_a : r.body_b;
-      if (body >= 0)
-        v += sign * before.bodies_n.body(body).velocityAt(side == 0 ? r.point : r.point + r.gap * r.normal);
-      for (int k = 0; k < 4; ++k)
-      {
-        int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
-        double const w = sign * (side == 0 ? r.weight_a[k] : r.weight_b[k]);
-        if (dof >= 0)
-          v += w * Vector2{before.velocity_n(dof, 0), before.velocity_n(dof, 1)};
-      }
-    }
-    return v;
-  }
-
   /// Impulses along n and across it of one row.
   KOKKOS_INLINE_FUNCTION Vector2 operator()(int i) const
   {
@@ -60,7 +39,7 @@ struct RowForce
     Vector2 stress{0.0, 0.0};
     if (nitsche)
     {
-      Vector2 const v = startVelocity(r);
+      Vector2 const v = relativeVelocity(r, before.motion_n.velocity, before.motion_n.bodies);
       velocity = {dot(n, v) + closing, dot(t, v)};
       double const part_a = both ? z_b / (z_a + z_b) : (z_a > 0.0 ? 1.0 : 0.0);
       Vector2 mean{0.0, 0.0};

@@ -12,8 +12,7 @@ struct StateBefore
 {
   Mesh mesh;
   CellMaterialPairs pairs;
-  View<double *[2]> velocity_n;
-  BodyTable bodies_n;
+  Motion motion_n;
   View<double *[3]> pair_stress; // xx, yy, xy; Nitsche alone
 };
 

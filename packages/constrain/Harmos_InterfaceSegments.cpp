@@ -179,7 +179,8 @@ KOKKOS_INLINE_FUNCTION PiecePoints piecePoints(Placement placement, bool free)
   constexpr double end_inset = 1e-3; // the ray of an end itself would graze the piece that it looks at
   if (placement == Placement::SegmentEnds)
     return {2, end_inset};
-  return {free || placement == Placement::GaussPoints ? 2 : 1, gauss_point};
+  bool const two = free || placement == Placement::GaussPoints || placement == Placement::Mortar;
+  return {two ? 2 : 1, gauss_point};
 }
 
 // What fills a cell: the material of a pure one, else one of these.

@@ -270,7 +270,7 @@ public:
     if (residualFits())
       return;
     AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, placement, exchange_);
-    bool const grouped = placement == Placement::VitalVertices;
+    bool const grouped = sharesMultipliers(placement);
     DualSolution const dual = projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_);
     solution.iterations = dual.iterations;
     std::vector<double> spread(grouped ? problem.rows.size() : 0, 0.0);

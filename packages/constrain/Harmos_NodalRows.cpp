@@ -109,6 +109,7 @@ private:
     PairInteraction const &law = interaction(a, b);
     row.tied = merged || law.kind == Interaction::Bonded ? 1 : 0;
     row.friction = !merged && law.kind == Interaction::Friction ? law.friction : 0.0;
+    row.restitution = merged ? 0.0 : law.restitution;
     row.bond = -1;
     if (other < 0 || dot(row.normal, row.normal) == 0.0 || (bodies.driven(row.body_a) && bodies.driven(row.body_b)))
       return false;

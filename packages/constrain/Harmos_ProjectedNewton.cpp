@@ -32,6 +32,7 @@ public:
   /// Every round counts at least one iteration, so that it ends.
   DualSolution solve()
   {
+    exchangeActiveSets();
     while (iterations_ < max_iterations_)
     {
       moveReach();
@@ -39,8 +40,7 @@ public:
       double const reached = violation();
       if (reached <= enough_)
         break;
-      start_ = start_ > 0.0 ? start_ : reached;
-      shift_ = std::max(0.01 * (reached / start_) * (reached / start_), 1e-13);
+      setShift(0.01, reached);
       chooseFree();
       if (!descend())
         safeStep();
@@ -65,9 +65,13 @@ private:
       out[i] += problem_.b[i];
   }
 
-  /// Friction's bounds from the impulses along n. Impulses at a bound that their gradient presses on stay at it.
+  /// Friction's bounds from the impulses along n. Impulses at a bound that their gradient presses on stay at it; what
+  /// lies beyond a bound returns to it.
   void moveReach()
   {
+    for (int i = 0; i < n_; ++i)
+      if (problem_.normal_of[i] < 0)
+        x_[i] = bounds(i).clip(x_[i]);
     for (int i = 0; i < n_; ++i)
     {
       if (problem_.normal_of[i] < 0)
@@ -76,6 +80,60 @@ private:
       reach_[i] = problem_.friction[i] * x_[problem_.normal_of[i]];
       bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
       x_[i] = slides ? (g_[i] < 0.0 ? reach_[i] : -reach_[i]) : bounds(i).clip(x_[i]);
+    }
+  }
+
+  void setShift(double factor, double reached)
+  {
+    start_ = start_ > 0.0 ? start_ : reached;
+    shift_ = std::max(factor * (reached / start_) * (reached / start_), 1e-13);
+  }
+
+  /// Primal-dual active sets: an unknown is free where x - g lies between its bounds, else at the bound beyond which it
+  /// lies; a Newton step of the free ones may leave their bounds, which the next sets mend. Whole sets change at once,
+  /// so that places far from each other settle together; the residual may grow on the way. What was best is kept, and
+  /// left to the steps that descend where a few sets do not halve it.
+  void exchangeActiveSets()
+  {
+    constexpr int patience = 6;
+    Vector best = x_, point, slope;
+    double least = 1e300;
+    for (int worse = 0; worse <= patience && least > enough_ && iterations_ < max_iterations_;)
+    {
+      point = x_;
+      moveReach();
+      gradient(x_, g_);
+      double const reached = violation();
+      worse = reached < 0.5 * least ? 0 : worse + 1;
+      if (reached < least)
+      {
+        least = reached;
+        best = x_;
+      }
+      if (least <= enough_ || worse > patience)
+        break;
+      setShift(0.1, least);
+      gradient(point, slope);
+      chooseSets(point, slope);
+      gradient(x_, g_);
+      int const before = iterations_;
+      Vector const step = newtonStep();
+      iterations_ += iterations_ == before ? 1 : 0;
+      for (int i = 0; i < n_; ++i)
+        x_[i] += free_[i] ? step[i] : 0.0;
+    }
+    x_ = best;
+  }
+
+  /// The sets at a point that may lie beyond bounds, and x with what is not free at its bound.
+  void chooseSets(Vector const &point, Vector const &slope)
+  {
+    for (int i = 0; i < n_; ++i)
+    {
+      ImpulseBounds const limit = bounds(i);
+      double const to = point[i] - slope[i];
+      free_[i] = limit.low < limit.high && limit.inside(to) ? 1 : 0;
+      x_[i] = free_[i] ? point[i] : limit.clip(to);
     }
   }
 

@@ -27,6 +27,7 @@ enum RowItem : int
   ItemMaterialB,
   ItemTied,
   ItemFriction,
+  ItemRestitution,
   ItemWeightA,
   ItemWeightB = ItemWeightA + 4,
   ItemPoint = ItemWeightB + 4,
@@ -44,6 +45,7 @@ KOKKOS_INLINE_FUNCTION void packRow(Mesh const &mesh, ContactRow const &row, Pac
   item(i, ItemMaterialB) = row.material_b;
   item(i, ItemTied) = row.tied;
   item(i, ItemFriction) = row.friction;
+  item(i, ItemRestitution) = row.restitution;
   for (int k = 0; k < 4; ++k)
   {
     item(i, ItemWeightA + k) = row.weight_a[k];
@@ -79,6 +81,7 @@ KOKKOS_INLINE_FUNCTION bool unpackRow(Mesh const &mesh, CellMaterialPairs const 
   row.material_b = static_cast<int>(item(i, ItemMaterialB));
   row.tied = static_cast<int>(item(i, ItemTied));
   row.friction = item(i, ItemFriction);
+  row.restitution = item(i, ItemRestitution);
   row.bond = -1; // its owner sums the load
   row.body_a = bodies.of_material(row.material_a);
   row.body_b = row.material_b < 0 ? -2 : bodies.of_material(row.material_b);

@@ -33,6 +33,7 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
     deck.constraint.placement = placement == "gauss points"     ? Placement::GaussPoints
                                 : placement == "segment ends"   ? Placement::SegmentEnds
                                 : placement == "vital vertices" ? Placement::VitalVertices
+                                : placement == "mortar"         ? Placement::Mortar
                                                                 : Placement::Midpoint;
   }
   if (is_explicit)
@@ -41,17 +42,21 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
   deck.constraint.solver = solver == "row sums"              ? MultiplierMethod::RowSums
                            : solver == "conjugate gradients" ? MultiplierMethod::ConjugateGradients
                                                              : MultiplierMethod::ProjectedNewton;
-  check.require(deck.constraint.placement != Placement::VitalVertices ||
-                    deck.constraint.solver == MultiplierMethod::ProjectedNewton,
-                "numerics/constraint/solver",
-                "\"" + solver +
-                    "\" has no groups of rows, as placement vital vertices needs; expected: projected newton");
+  check.require(
+      !sharesMultipliers(deck.constraint.placement) || deck.constraint.solver == MultiplierMethod::ProjectedNewton,
+      "numerics/constraint/solver",
+      "\"" + solver +
+          "\" has no groups of rows, as placements vital vertices and mortar need; expected: projected newton");
   check.require(!is_explicit || deck.constraint.solver == MultiplierMethod::ProjectedNewton,
                 "numerics/constraint/solver", "\"" + solver + "\" has nothing to solve with method " + method);
   for (BodySpec const &body : deck.bodies)
     check.require(!is_explicit || body.motion != RigidMotion::Free, path,
                   "\"" + method + "\" takes its stiffness from deformable bodies, and " + body.name +
                       " is rigid and free; expected: multipliers, nodal or merged");
+  bool const bounces = std::any_of(deck.interaction.begin(), deck.interaction.end(),
+                                   [](PairInteraction const &law) { return law.restitution > 0.0; });
+  check.require(!bounces || method == "multipliers" || method == "nodal", path,
+                "\"" + method + "\" knows no restitution; expected: multipliers or nodal");
   if (method != "nodal" && method != "merged")
     return;
   check.require(deck.kinematics == Kinematics::Xfem, path,
@@ -87,6 +92,12 @@ void convertInteractions(DeckChecker const &check, ParameterList const &list, De
                                     : Interaction::Sliding;
     if (law.kind == Interaction::Friction)
       law.friction = item.get<double>("coefficient");
+    if (law.kind != Interaction::Bonded)
+      law.restitution = item.get<double>("restitution");
+    check.require(law.restitution == 0.0 || deck.kinematics != Kinematics::Single,
+                  path.substr(0, path.rfind('/')) + "/restitution",
+                  "nothing parts where all materials of a cell share one velocity; expected: 0, or kinematics xfem or "
+                  "lagrangian");
     if (law.kind == Interaction::Bonded)
       law.strength = {optionalNumber(item, "tensile_strength"), optionalNumber(item, "shear_strength")};
     return law;

@@ -172,6 +172,9 @@ void addInteractions(ParameterList &list)
   {
     ParameterList &friction = where.sublist(key + " = friction");
     add(friction, "coefficient", 0.0, required(number(positive)), "Coulomb's: tangential over normal force at most");
+    for (char const *kind : {"sliding", "friction"})
+      add(where.sublist(key + " = " + kind), "restitution", 0.0, number(between(0.0, 1.0)),
+          "part of the closing speed that surfaces part with when they touch; 1: the impact loses no energy");
     ParameterList &bonded = where.sublist(key + " = bonded");
     for (char const *way : {"tensile", "shear"})
       add(bonded, std::string(way) + "_strength", 0.0, optional(number(positive, "Pa"), "without limit"),
@@ -225,8 +228,9 @@ void addNumerics(ParameterList &list)
     add(c.sublist(std::string("method = ") + method), "penalty", constraint.penalty, number(positive),
         "traction over impedance times closing velocity");
   add(c.sublist("method = multipliers"), "placement", std::string("midpoint"),
-      choice({"midpoint", "gauss points", "segment ends", "vital vertices"}),
-      "of the multipliers: one on a segment, two, or one for each vital cell edge that the interface crosses");
+      choice({"midpoint", "gauss points", "segment ends", "vital vertices", "mortar"}),
+      "of the multipliers: one on a segment, two, or one for each vital cell edge that the interface crosses, against "
+      "the approach of midpoints or (mortar) its integral");
   add(c, "solver", std::string("projected newton"), choice({"projected newton", "conjugate gradients", "row sums"}),
       "of the multipliers. projected newton: with a factor of the assembled matrix, on every rank the whole problem; "
       "conjugate gradients: with projections, without a matrix; row sums: the plain iteration with the row sums of the "

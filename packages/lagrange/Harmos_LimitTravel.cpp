@@ -30,6 +30,7 @@ struct SlowLight
   View<int *> slowed_with; // dof nodes: the pair whose mean velocity a slowed one takes, else -1
   double dt;
   double light_node;
+  double largest_cell = 0.0; // volume
 
   KOKKOS_INLINE_FUNCTION Vector2 velocity(int dof) const { return {half(dof, 0), half(dof, 1)}; }
 
@@ -47,6 +48,8 @@ struct SlowLight
       return false;
     int const node = dof_nodes.node(dof);
     double const volume = dof_mass(dof) / (density_range * light_node * materials(own).density0);
+    if (volume >= largest_cell)
+      return false;
     for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
     {
       if (volume < mesh.cell_volume(mesh.node_cell.item(i) / 4))
@@ -230,6 +233,16 @@ Crossing largestCrossing(SlowLight const &slow)
   return result;
 }
 
+double largestCellVolume(Mesh const &mesh)
+{
+  auto const volume = mesh.cell_volume;
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::lagrange::largestCellVolume", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, double &most) { most = Math::max(most, volume(cell)); }, Kokkos::Max<double>(largest));
+  return largest;
+}
+
 struct SlowSums : TravelReport
 {
   KOKKOS_INLINE_FUNCTION void join(SlowSums const &other)
@@ -305,6 +318,7 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
   TravelReport report;
   SlowLight slow{mesh,          pairs,     dof_nodes,          materials, boundary, state.record,
                  work.dof_mass, work.half, work.node_altitude, {},        dt,       options.light_node};
+  slow.largest_cell = largestCellVolume(mesh);
   Crossing const crossing = largestCrossing(slow);
   if (crossing.light == 0)
   {

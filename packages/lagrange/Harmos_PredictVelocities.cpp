@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Lagrange.hpp>
 
-#include <Harmos_Pack.hpp>
+#include <Harmos_LoadPoints.hpp>
 #include <Harmos_RowPointer.hpp>
 #include <detail/Harmos_JoinReducer.hpp>
 
@@ -104,6 +104,7 @@ struct PredictFunctor
   Vector2 gravity;
   bool has_gravity;
   double dt;
+  int num_dofs;
 
   KOKKOS_FORCEINLINE_FUNCTION Vector2 accelerate(int dof, Gathered const &g) const
   {
@@ -139,16 +140,119 @@ struct PredictFunctor
     (g.held ? sums.driven_work : sums.wall_work) += dot(by_other, mean);
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(int dof, Sums &sums) const
+  /// What the dof nodes of a pack gather, and those of its lanes that are plain: not special.
+  struct Plain
   {
-    int const node = node_of[dof];
-    int const material = material_of_dof[dof];
-    Gathered const g = material >= 0 ? gather.ofMaterial(node, material) : gather.ofAll(node);
-    Vector2 const free = accelerate(dof, g);
-    if (has_gravity || g.held || node_condition[node] >= 0)
-      special(dof, g, free, sums);
-    else
-      store(dof, g.mass, free);
+    Pack mass = 0.0, force_x = 0.0, force_y = 0.0;
+    unsigned lanes = 0u;
+  };
+
+  /// Whether the dof nodes from `first` on belong to one deformable material and to nodes without condition, each in
+  /// four cells that are runs of pure cells of that material.
+  KOKKOS_FORCEINLINE_FUNCTION bool inRuns(int first) const
+  {
+    int const node = node_of[first], material = material_of_dof[first];
+    if (has_gravity || material < 0 || gather.materials[material].rigid_body >= 0)
+      return false;
+    int differs = 0;
+    for (int lane = 0; lane < pack_width; ++lane)
+      differs |= (node_of[first + lane] ^ (node + lane)) | (material_of_dof[first + lane] ^ material);
+    if (differs != 0)
+      return false;
+    for (int lane = 0; lane < pack_width; ++lane)
+      differs |= (gather.first_item[node + lane + 1] - gather.first_item[node + lane]) ^ 4;
+    for (int lane = 0; lane < pack_width; ++lane)
+      differs |= node_condition[node + lane] < 0 ? 0 : 1;
+    if (differs != 0)
+      return false;
+    int const *item = gather.item + gather.first_item[node];
+    for (int i = 0; i < 4; ++i)
+      for (int lane = 1; lane < pack_width; ++lane)
+        differs |= item[4 * lane + i] ^ (item[i] + 4 * lane);
+    return differs == 0 && inPureRuns(item, material);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION bool inPureRuns(int const item[4], int material) const
+  {
+    int differs = 0;
+    for (int i = 0; i < 4; ++i)
+    {
+      int const cell = item[i] >> 2, pair = gather.first_pair[cell];
+      for (int lane = 0; lane < pack_width; ++lane)
+        differs |=
+            (gather.first_pair[cell + lane + 1] ^ (pair + lane + 1)) | (gather.material_of[pair + lane] ^ material);
+    }
+    return differs == 0;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Plain gatherRuns(int first) const
+  {
+    Plain plain;
+    plain.lanes = all_lanes;
+    int const *item = gather.item + gather.first_item[node_of[first]];
+    for (int i = 0; i < 4; ++i)
+    {
+      int const pair = gather.first_pair[item[i] >> 2], corner = item[i] & 3;
+      Pack x, y;
+      loadPoints([&](int lane) { return gather.corner_force.row(pair + lane) + 2 * corner; }, x, y);
+      plain.mass += packOf([&](int lane) { return gather.record(pair + lane, Mass); });
+      plain.force_x += x;
+      plain.force_y += y;
+    }
+    plain.mass = 0.25 * plain.mass;
+    return plain;
+  }
+
+  /// The plain dof nodes of a pack one by one; the others are dealt with.
+  KOKKOS_FORCEINLINE_FUNCTION Plain gatherLanes(int first, int count, Sums &sums) const
+  {
+    double mass[pack_width], force_x[pack_width], force_y[pack_width];
+    Plain plain;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      mass[lane] = force_x[lane] = force_y[lane] = 0.0;
+      if (lane >= count)
+        continue;
+      int const dof = first + lane, node = node_of[dof], material = material_of_dof[dof];
+      Gathered const g = material >= 0 ? gather.ofMaterial(node, material) : gather.ofAll(node);
+      if (has_gravity || g.held || node_condition[node] >= 0)
+      {
+        special(dof, g, accelerate(dof, g), sums);
+        continue;
+      }
+      mass[lane] = g.mass;
+      force_x[lane] = g.force[0];
+      force_y[lane] = g.force[1];
+      plain.lanes |= 1u << lane;
+    }
+    plain.mass = loadPack(mass);
+    plain.force_x = loadPack(force_x);
+    plain.force_y = loadPack(force_y);
+    return plain;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block, Sums &sums) const
+  {
+    int const first = block * pack_width;
+    int const count = Math::min(pack_width, num_dofs - first);
+    Plain const plain = count == pack_width && inRuns(first) ? gatherRuns(first) : gatherLanes(first, count, sums);
+    if (plain.lanes == 0u)
+      return;
+    Pack x, y;
+    loadPoints([&](int lane) { return velocity.row(Math::min(first + lane, num_dofs - 1)); }, x, y);
+    auto const massive = plain.mass > Pack(0.0);
+    Pack const per_mass = select(massive, Pack(1.0 / select(massive, plain.mass, Pack(1.0))), Pack(0.0));
+    x = x + per_mass * (dt * plain.force_x);
+    y = y + per_mass * (dt * plain.force_y);
+    if (plain.lanes == all_lanes)
+    {
+      storePack(dof_mass + first, plain.mass);
+      storePoints([&](int lane) { return predicted.row(first + lane); }, x, y);
+      return;
+    }
+    for (int lane = 0; lane < count; ++lane)
+      if ((plain.lanes >> lane & 1u) != 0u)
+        store(first + lane, laneOf(plain.mass, lane), {laneOf(x, lane), laneOf(y, lane)});
   }
 };
 
@@ -178,10 +282,11 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
                                work.dof_mass.data(),
                                gravity,
                                gravity[0] != 0.0 || gravity[1] != 0.0,
-                               dt};
+                               dt,
+                               dof_nodes.num_dof_nodes};
   Sums result;
-  Kokkos::parallel_reduce("Harmos::lagrange::predictVelocities", RangePolicy(0, dof_nodes.num_dof_nodes), predict,
-                          detail::JoinReducer<Sums>(result));
+  Kokkos::parallel_reduce("Harmos::lagrange::predictVelocities", RangePolicy(0, numPacks(dof_nodes.num_dof_nodes)),
+                          predict, detail::JoinReducer<Sums>(result));
   return result;
 }
 

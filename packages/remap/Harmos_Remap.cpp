@@ -108,7 +108,7 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
       Kokkos::deep_copy(stage.kinetic, before);
     return stage;
   }
-  if (kept.window.cell.extent(0) == 0)
+  if (kept.window.columns.extent(0) == 0)
   {
     kept.chunks = sweptChunks(in.mesh);
     kept.window = sweptWindow(kept.chunks);

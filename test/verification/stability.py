@@ -50,4 +50,10 @@ def test_vital_vertices_keep_a_uniform_pressure_at_an_oblique_interface():
         check(f"vital vertices, {angle:.0f} degrees: deviation of the tractions", deviation("vital vertices", angle), bound)
 
 
+def test_mortar_multipliers_halve_the_deviation_of_midpoints():
+    # What is left is not theirs: the forces of a pressure in a cut cell are those of the cell's mean gradient (tstVitalVertices has the exact ones).
+    for angle, bound in ((0.0, 1e-6), (20.0, 0.15), (35.0, 0.25)):
+        check(f"mortar, {angle:.0f} degrees: deviation of the tractions", deviation("mortar", angle), bound)
+
+
 run(globals())

@@ -19,6 +19,7 @@ METHODS = {
     "two Gauss points": {f"{CONSTRAINT}/placement": "gauss points"},
     "segment ends": {f"{CONSTRAINT}/placement": "segment ends"},
     "vital vertices": {f"{CONSTRAINT}/placement": "vital vertices"},
+    "mortar": {f"{CONSTRAINT}/placement": "mortar"},
     "row-sum iteration": {f"{CONSTRAINT}/solver": "row sums"},
     "penalty 0.3": {f"{CONSTRAINT}/method": "penalty", f"{CONSTRAINT}/penalty": 0.3},
     "penalty 1": {f"{CONSTRAINT}/method": "penalty", f"{CONSTRAINT}/penalty": 1.0},

@@ -253,7 +253,7 @@ TEST(Constrain, tiedBlocks_shareBothVelocitiesAndHoldWhenPulled)
   {
     TinyScene scene(rectilinearMesh(uniform(1, 1), uniform(1, 1)), {boxBody(0, 0, 0, 0.5, 1), boxBody(1, 0.5, 0, 1, 1)},
                     2, open_box);
-    scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, {}});
+    scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, 0.0, {}});
     scene.setVelocity(
         [sign](int material, Vector2 const &) {
           return material == 0 ? Vector2{sign * V, V} : Vector2{-sign * V, 0.0};

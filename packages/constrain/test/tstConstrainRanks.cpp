@@ -67,6 +67,9 @@ Result solve(Mesh const &mesh, Exchange const &exchange, int depth, RigidMotion 
   scene.options.tolerance = 1e-9;
   scene.options.solver = solver;
   scene.options.placement = placement;
+  PairInteraction bouncing;
+  bouncing.restitution = 0.7;
+  scene.setInteraction(1, 2, bouncing);
   scene.dt = 2e-3;
   RigidBody slab;
   slab.material = 2;
@@ -148,6 +151,7 @@ TEST(ConstrainRanks, anyPartition_givesTheBitsOfOneRank)
   HostMesh const whole = rectilinearMesh(uniform(n, n), uniform(n, n));
   for (Case const &c : {Case{MultiplierMethod::ProjectedNewton, Placement::Midpoint, 3},
                         Case{MultiplierMethod::ProjectedNewton, Placement::VitalVertices, 3},
+                        Case{MultiplierMethod::ProjectedNewton, Placement::Mortar, 3},
                         Case{MultiplierMethod::ConjugateGradients, Placement::Midpoint, 11}})
     for (RigidMotion const motion : {RigidMotion::Free, RigidMotion::Prescribed})
     {

@@ -12,7 +12,7 @@ constexpr double V = 100.0; // closing speed
 
 PairInteraction rubbing(double coefficient)
 {
-  return {Interaction::Friction, coefficient, {}};
+  return {Interaction::Friction, coefficient, 0.0, {}};
 }
 
 /// A row of cells: block 0 left of x = 5.3, block 1 right of it, with masses 2 and 3 times their lengths.
@@ -134,7 +134,7 @@ TEST(Bonds, theNearestBond_decides)
 {
   TinyScene scene(rectilinearMesh(uniform(2, 2), uniform(8, 8)), {boxBody(0, 0, 0, 0.7, 8), boxBody(1, 0.7, 0, 2, 8)},
                   2, open_box);
-  scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, {1.0, 0.0}});
+  scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, 0.0, {1.0, 0.0}});
   scene.bonds = findBonds(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions, {}, scene.options,
                           *scene.exchange);
   ASSERT_EQ(scene.bonds.size(), 8u);
@@ -161,7 +161,7 @@ TEST(Bonds, holdAcrossNoGapWiderThanATenthOfACell)
   {
     TinyScene scene(rectilinearMesh(uniform(2, 2), uniform(1, 1)),
                     {boxBody(0, 0, 0, 0.7, 1), boxBody(1, 0.7 + gap, 0, 2, 1)}, 2, open_box);
-    scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, {}});
+    scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, 0.0, {}});
     scene.setVelocity([](int material, Vector2 const &) { return Vector2{material == 0 ? -V : V, 0.0}; });
     ConstraintReport const report = scene.constrain();
     if (gap < 0.1)

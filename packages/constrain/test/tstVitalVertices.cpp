@@ -112,30 +112,96 @@ TEST(VitalVertices, rowsOfOtherKind_haveGroupsOfTheirOwn)
   EXPECT_NE(shares[1][0].group, shares[2][0].group);
 }
 
+/// The obliquely cut box of the tests below: the interface runs from (5.3, 0) to (3.6, 6).
+TinyScene obliqueScene(Interaction kind, Placement placement)
+{
+  TinyScene scene(
+      rectilinearMesh(uniform(12, 12), uniform(6, 6)),
+      {polygonBody(0, {{0, 0}, {5.3, 0}, {3.6, 6}, {0, 6}}), polygonBody(1, {{5.3, 0}, {12, 0}, {12, 6}, {3.6, 6}})}, 2,
+      std::vector<BoundaryKind>(4, BoundaryKind::Outflow), Kinematics::Xfem, {2.0, 3.0});
+  PairInteraction law;
+  law.kind = kind;
+  law.friction = kind == Interaction::Friction ? 0.3 : 0.0;
+  scene.setInteraction(0, 1, law);
+  scene.options.placement = placement;
+  return scene;
+}
+
+/// Velocities that the impulse of a uniform pressure on the interface gives both bodies: +- n p / m_I times the
+/// integral of N_I along the line, by Simpson's rule between the lines of the mesh, where N_I is quadratic.
+void pressTogether(TinyScene &scene, double p)
+{
+  Vector2 const from{5.3, 0.0}, to{3.6, 6.0};
+  std::vector<double> cut = {0.0, 1.0};
+  for (int k = 1; k < 6; ++k)
+    cut.push_back(k / 6.0);
+  for (int x : {4, 5})
+    cut.push_back((from[0] - x) / (from[0] - to[0]));
+  std::sort(cut.begin(), cut.end());
+  double const length = norm(to - from);
+  Vector2 const n{6.0 / length, 1.7 / length};
+  auto const mass = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.dof_mass);
+  auto const v = Kokkos::create_mirror_view(scene.predicted);
+  scene.forEachDof(
+      [&](int dof, int material, Vector2 const &node)
+      {
+        double integral = 0.0;
+        for (std::size_t i = 0; i + 1 < cut.size(); ++i)
+          for (int k = 0; k < 3; ++k)
+          {
+            Vector2 const x = from + (cut[i] + 0.5 * k * (cut[i + 1] - cut[i])) * (to - from);
+            double const shape =
+                std::max(1.0 - std::fabs(x[0] - node[0]), 0.0) * std::max(1.0 - std::fabs(x[1] - node[1]), 0.0);
+            integral += (k == 1 ? 4.0 : 1.0) / 6.0 * (cut[i + 1] - cut[i]) * length * shape;
+          }
+        for (int d = 0; d < 2; ++d)
+          v(dof, d) = (material == 0 ? 1.0 : -1.0) * p * integral / mass(dof) * n[d];
+      });
+  Kokkos::deep_copy(scene.predicted, v);
+}
+
+// A uniform pressure, integrated exactly over the interface, is what the mortar multipliers answer with, to round-off.
+// One point a segment integrates its forces otherwise.
+TEST(VitalVertices, mortar_answersAUniformPressureWithItself)
+{
+  constexpr double p = 7.0;
+  double const length = std::hypot(1.7, 6.0);
+  for (Interaction const kind : {Interaction::Sliding, Interaction::Bonded, Interaction::Friction})
+    for (Placement const placement : {Placement::Mortar, Placement::VitalVertices})
+    {
+      TinyScene scene = obliqueScene(kind, placement);
+      scene.options.shortest_segment = 0.0;
+      scene.setVelocity([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
+      pressTogether(scene, p);
+      ConstraintReport const report = scene.constrain();
+      EXPECT_TRUE(report.converged) << report.residual;
+      PairForce const &force = report.pair_force[1];
+      EXPECT_NEAR(force.area, length, 1e-12);
+      EXPECT_NEAR(force.normal_impulse, p * length, (placement == Placement::Mortar ? 1e-9 : 0.05) * p * length);
+      if (placement == Placement::Mortar)
+        EXPECT_LE(force.deviation(), 1e-7 * p);
+      else
+        EXPECT_GE(force.deviation(), 0.01 * p);
+    }
+}
+
 // Momentum and the work of the impulses are exact; the mean approach over the interface vanishes.
 TEST(VitalVertices, obliqueImpact_conserves)
 {
-  for (Interaction const kind : {Interaction::Sliding, Interaction::Bonded, Interaction::Friction})
-  {
-    TinyScene scene(
-        rectilinearMesh(uniform(12, 12), uniform(6, 6)),
-        {polygonBody(0, {{0, 0}, {5.3, 0}, {3.6, 6}, {0, 6}}), polygonBody(1, {{5.3, 0}, {12, 0}, {12, 6}, {3.6, 6}})},
-        2, std::vector<BoundaryKind>(4, BoundaryKind::Outflow), Kinematics::Xfem, {2.0, 3.0});
-    PairInteraction law;
-    law.kind = kind;
-    law.friction = kind == Interaction::Friction ? 0.3 : 0.0;
-    scene.setInteraction(0, 1, law);
-    scene.options.placement = Placement::VitalVertices;
-    scene.setVelocity(
-        [](int material, Vector2 const &x) {
-          return Vector2{material == 0 ? 60.0 : -40.0, 10.0 * std::sin(x[0])};
-        });
-    ConstraintReport const report = scene.constrain();
-    EXPECT_TRUE(report.converged) << report.residual;
-    EXPECT_LE(report.iterations, 20);
-    EXPECT_GT(report.pair_force[1].normal_impulse, 0.0);
-    auto const before = scene.sums(scene.predicted, -2), after = scene.sums(scene.half, -2);
-    EXPECT_NEAR(norm(after.momentum - before.momentum), 0.0, 1e-12 * 60.0 * before.mass);
-    EXPECT_NEAR(after.kinetic + report.contact_loss, before.kinetic, 1e-11 * before.kinetic);
-  }
+  for (Placement const placement : {Placement::VitalVertices, Placement::Mortar})
+    for (Interaction const kind : {Interaction::Sliding, Interaction::Bonded, Interaction::Friction})
+    {
+      TinyScene scene = obliqueScene(kind, placement);
+      scene.setVelocity(
+          [](int material, Vector2 const &x) {
+            return Vector2{material == 0 ? 60.0 : -40.0, 10.0 * std::sin(x[0])};
+          });
+      ConstraintReport const report = scene.constrain();
+      EXPECT_TRUE(report.converged) << report.residual;
+      EXPECT_LE(report.iterations, 20);
+      EXPECT_GT(report.pair_force[1].normal_impulse, 0.0);
+      auto const before = scene.sums(scene.predicted, -2), after = scene.sums(scene.half, -2);
+      EXPECT_NEAR(norm(after.momentum - before.momentum), 0.0, 1e-12 * 60.0 * before.mass);
+      EXPECT_NEAR(after.kinetic + report.contact_loss, before.kinetic, 1e-11 * before.kinetic);
+    }
 }

@@ -38,6 +38,8 @@ TEST(DeckContact, theDefault_hasItsKeysBesideIt)
   Deck const bonded = read({"interactions/default=bonded", "interactions/tensile_strength=1e6"});
   EXPECT_EQ(bonded.interaction[1].strength.tensile, 1e6);
   EXPECT_EQ(bonded.interaction[1].strength.shear, 0.0);
+  EXPECT_EQ(read({}).interaction[1].restitution, 0.0);
+  EXPECT_EQ(read({"interactions={default: sliding, restitution: 1.0}"}).interaction[1].restitution, 1.0);
   EXPECT_EQ(read({"boundaries/left={type: contact wall, friction: 0.2}"}).boundary[0].friction, 0.2);
 }
 
@@ -54,6 +56,7 @@ TEST(DeckContact, everyMethodHasItsWord)
   EXPECT_EQ(read({"numerics/constraint/placement=gauss points"}).constraint.placement, Placement::GaussPoints);
   EXPECT_EQ(read({"numerics/constraint/placement=segment ends"}).constraint.placement, Placement::SegmentEnds);
   EXPECT_EQ(read({"numerics/constraint/placement=vital vertices"}).constraint.placement, Placement::VitalVertices);
+  EXPECT_EQ(read({"numerics/constraint/placement=mortar"}).constraint.placement, Placement::Mortar);
   EXPECT_EQ(read({}).constraint.solver, MultiplierMethod::ProjectedNewton);
   EXPECT_EQ(read({"numerics/constraint/solver=row sums"}).constraint.solver, MultiplierMethod::RowSums);
   EXPECT_EQ(read({"numerics/constraint/solver=conjugate gradients"}).constraint.solver,
@@ -72,11 +75,19 @@ TEST(DeckContact, whatHasNoMeaning_isRefused)
   expectRefused({"kinematics=single"}, "deck.yaml: interactions/glue/type: \"bonded\" has no meaning");
   expectRefused({"numerics/constraint={method: nitsche, placement: gauss points}"},
                 "deck.yaml: numerics/constraint/placement: does not belong here");
+  expectRefused({"interactions={default: bonded, restitution: 1.0}"},
+                "deck.yaml: interactions/restitution: does not belong here");
+  expectRefused({"interactions={default: sliding, restitution: 1.1}"}, "deck.yaml: interactions/restitution: ");
+  expectRefused({"interactions={default: sliding, restitution: 0.5}", "numerics/constraint/method=penalty"},
+                "deck.yaml: numerics/constraint/method: \"penalty\" knows no restitution");
+  expectRefused({"interactions={default: sliding, restitution: 0.5}", "kinematics=single"},
+                "deck.yaml: interactions/restitution: nothing parts");
   expectRefused({"numerics/constraint/penalty=1"}, "deck.yaml: numerics/constraint/penalty: does not belong here");
   expectRefused({"numerics/constraint={method: penalty, solver: row sums}"},
                 "deck.yaml: numerics/constraint/solver: \"row sums\" has nothing to solve with method penalty");
-  expectRefused({"numerics/constraint={placement: vital vertices, solver: row sums}"},
-                "deck.yaml: numerics/constraint/solver: \"row sums\" has no groups of rows");
+  for (std::string const placement : {"vital vertices", "mortar"})
+    expectRefused({"numerics/constraint={placement: " + placement + ", solver: row sums}"},
+                  "deck.yaml: numerics/constraint/solver: \"row sums\" has no groups of rows");
   expectRefused({"numerics/constraint/method=penalty",
                  "bodies/lower={material: platen, shape: disc, center: [0, 0], radius: 1, motion: free}"},
                 "deck.yaml: numerics/constraint/method: \"penalty\" takes its stiffness from deformable bodies");

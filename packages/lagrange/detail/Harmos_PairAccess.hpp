@@ -4,6 +4,7 @@
 
 #include <Harmos_Lagrange.hpp>
 
+#include <Harmos_LoadPoints.hpp>
 #include <Harmos_RowPointer.hpp>
 #include <detail/Harmos_PairPhysics.hpp>
 
@@ -62,13 +63,7 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<Pack> packedCorners(RowPointer<int, 4> const
     row[lane] = corner.row(index[lane]);
   Corners<Pack> c;
   for (int k = 0; k < 4; ++k)
-  {
-    double const *at[pack_width];
-    for (int lane = 0; lane < pack_width; ++lane)
-      at[lane] = value.row(row[lane][k]);
-    c.x[k] = packOf([&](int lane) { return at[lane][0]; });
-    c.y[k] = packOf([&](int lane) { return at[lane][1]; });
-  }
+    loadPoints([&](int lane) { return value.row(row[lane][k]); }, c.x[k], c.y[k]);
   return c;
 }
 

@@ -71,7 +71,7 @@ struct FinishFunctor
       q[f] = acceptors.sum(c, f) * per_mass;
     for (int f = DeviatorXX; f <= DeviatorXY; ++f)
       q[f] = acceptors.sum(c, f) * per_volume;
-    returnToYield(in.materials(acceptors.material(c)), q);
+    returnToYield(in.materials(acceptors.material(c)), q[PlasticStrain], q[DeviatorXX], q[DeviatorYY], q[DeviatorXY]);
     for (int f = 0; f < num_pair_fields; ++f)
       acceptors.record(c, f) = q[f];
     acceptors.kinetic(c) = acceptors.sum(c, KineticField) * per_mass;

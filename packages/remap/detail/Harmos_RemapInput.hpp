@@ -3,6 +3,7 @@
 #define HARMOS_REMAP_INPUT_HPP
 
 #include <Harmos_Remap.hpp>
+#include <Harmos_Select.hpp>
 #include <detail/Harmos_NeighbourLinks.hpp>
 
 namespace Harmos
@@ -98,27 +99,26 @@ KOKKOS_INLINE_FUNCTION Vector2 cellCentroid(Mesh const &mesh, int cell)
 }
 
 /// Radial return of a deviator to the yield surface sqrt(3 J2) <= yield + hardening eps; zero without strength.
-KOKKOS_INLINE_FUNCTION void returnToYield(Material const &law, double *record)
+/// \tparam T double or Pack
+template <class T>
+KOKKOS_INLINE_FUNCTION void returnToYield(Material const &law, T const &plastic_strain, T &xx, T &yy, T &xy)
 {
-  double &xx = record[DeviatorXX];
-  double &yy = record[DeviatorYY];
-  double &xy = record[DeviatorXY];
   if (law.strength == StrengthKind::None)
   {
-    xx = yy = xy = 0.0;
+    xx = yy = xy = T(0.0);
     return;
   }
   if (law.strength != StrengthKind::Plastic)
     return;
-  double const three_j2 = 3.0 * (xx * xx + yy * yy + xx * yy + xy * xy);
-  double const yield = law.yield + law.hardening * record[PlasticStrain];
-  if (three_j2 > yield * yield)
-  {
-    double const scale = yield / Math::sqrt(three_j2);
-    xx *= scale;
-    yy *= scale;
-    xy *= scale;
-  }
+  T const three_j2 = 3.0 * (xx * xx + yy * yy + xx * yy + xy * xy);
+  T const yield = law.yield + law.hardening * plastic_strain;
+  auto const yields = three_j2 > yield * yield;
+  if (!any(yields))
+    return;
+  T const scale = select(yields, T(yield / Math::sqrt(T(select(yields, three_j2, T(1.0))))), T(1.0));
+  xx = scale * xx;
+  yy = scale * yy;
+  xy = scale * xy;
 }
 
 /// Kinetic energy of masses m / 4 with the momenta P_k / 4 at the corners: sum |P_k|^2 / (8 m). [J/m]

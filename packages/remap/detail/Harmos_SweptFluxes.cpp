@@ -11,25 +11,24 @@ namespace RemapDetail
 namespace
 {
 
-/// The cells of a pack, and the cells beyond their faces: the cell itself where that one does not count, so that the
-/// difference is nothing and the range does not grow.
-struct FluxCells
-{
-  int cell[pack_width];
-  int pair[pack_width];
-  int beyond[4][pack_width];
-  int beyond_pair[4][pack_width];
-  unsigned lanes; // that are stored
-};
-
-/// The faces through which the cells lose material.
+/// What the faces take out of the cells of a block.
 struct Outflow
 {
   Pack volume[4];
   Pack x[4], y[4]; // swept centroids from the cell's; zero where nothing leaves
-  bool leaves[4];  // in any lane
   Pack staying, moved_volume;
 };
+
+/// The centroids and fields beyond the faces, column by column as in the window; the cell's own where what is there
+/// does not count, so that the difference is nothing and the range does not grow.
+struct Columns
+{
+  double const *face[4];
+  std::ptrdiff_t stride[4];
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * stride[k]); }
+};
+using GatheredColumns = double[num_neighbour_columns][pack_width];
 
 /// Two differences across the cell and the 2 x 2 matrix that makes a gradient of them, by columns.
 struct Directions
@@ -44,6 +43,7 @@ struct Beyond
   Pack at_boundary; // 1 where a face has no cell beyond it
 };
 
+template <RemapLimiter limiter>
 struct SweptFluxFunctor
 {
   SweptStage stage;
@@ -55,40 +55,35 @@ struct SweptFluxFunctor
     Pack q, gradient_x, gradient_y, lower, upper;
   };
 
-  KOKKOS_FORCEINLINE_FUNCTION bool selectCells(int block, FluxCells &cells) const
+  /// Lane by lane, where the neighbours beyond a face are no run of cells.
+  HARMOS_RARE_FUNCTION void gather(int first, int k, GatheredColumns &gathered) const
   {
-    int const first = begin + block * pack_width;
     int const count = Math::min(pack_width, end - first);
-    int lead = -1;
-    cells.lanes = 0u;
-    for (int lane = 0; lane < count; ++lane)
-      if ((stage.flags[first + lane] & all_swept_corners) != 0)
-      {
-        cells.lanes |= 1u << lane;
-        lead = lead < 0 ? lane : lead;
-      }
-    if (cells.lanes == 0u)
-      return false;
     for (int lane = 0; lane < pack_width; ++lane)
     {
-      int const cell = first + ((cells.lanes >> lane & 1u) != 0u ? lane : lead);
-      int const flags = stage.flags[cell];
-      cells.cell[lane] = cell;
-      cells.pair[lane] = stage.first_pair[cell];
-      for (int k = 0; k < 4; ++k)
-      {
-        bool const same = (flags & SameBeyondBit << k) != 0 && stage.second_order;
-        int const beyond = same ? stage.face_neighbour(cell, k) >> 2 : cell;
-        cells.beyond[k][lane] = beyond;
-        cells.beyond_pair[k][lane] = stage.first_pair[beyond];
-      }
+      int const cell = first + lane;
+      bool const same = lane < count && stage.sameBeyond(cell, k);
+      double const *column = stage.at(CentroidX, same ? stage.face_neighbour(cell, k) >> 2 : cell);
+      for (int c = 0; c < num_neighbour_columns; ++c, column += stage.stride)
+        gathered[c][lane] = *column;
     }
-    return true;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void loadGeometry(int const cell[pack_width], Pack (&row)[8]) const
+  KOKKOS_FORCEINLINE_FUNCTION Columns columnsBeyond(int first, int block, GatheredColumns (&gathered)[4]) const
   {
-    loadRows([&](int lane) { return stage.cellRow(cell[lane]); }, row);
+    Columns beyond;
+    for (int k = 0; k < 4; ++k)
+    {
+      bool const in_run = (block & RunBit << k) != 0;
+      beyond.face[k] = stage.at(CentroidX, stage.second_order && in_run ? stage.face_neighbour(first, k) >> 2 : first);
+      beyond.stride[k] = stage.stride;
+      if (!stage.second_order || in_run)
+        continue;
+      gather(first, k, gathered[k]);
+      beyond.face[k] = gathered[k][0];
+      beyond.stride[k] = pack_width;
+    }
+    return beyond;
   }
 
   /// Linear-exact gradient from the differences across the cell along its two directions (faces 0 -> 2 and 3 -> 1).
@@ -132,29 +127,31 @@ struct SweptFluxFunctor
   }
 
   /// The part of the gradient that the limiter leaves, and the whole deviations from the mean at the faces.
-  KOKKOS_FORCEINLINE_FUNCTION Pack limit(Field const &f, Beyond const &beyond, Pack const (&p)[4], Outflow const &out,
-                                         Pack const (&weight)[4], Pack const &per_staying, Pack (&deviation)[4]) const
+  KOKKOS_FORCEINLINE_FUNCTION static Pack limit(Field const &f, Beyond const &beyond, Pack const (&p)[4],
+                                                Outflow const &out, Pack const (&weight)[4], Pack const &per_staying,
+                                                Pack (&deviation)[4])
   {
-    if (stage.limiter == RemapLimiter::Range)
-      return rangePart(f, out, weight, per_staying, deviation);
-    if (stage.limiter == RemapLimiter::RangeInside)
-      return Math::max(rangePart(f, out, weight, per_staying, deviation), beyond.at_boundary);
     for (int k = 0; k < 4; ++k)
       deviation[k] = out.x[k] * f.gradient_x + out.y[k] * f.gradient_y;
-    return stage.limiter == RemapLimiter::VanLeer ? vanLeerPart(f, beyond, p) : Pack(1.0);
+    if constexpr (limiter == RemapLimiter::None)
+      return Pack(1.0);
+    else if constexpr (limiter == RemapLimiter::VanLeer)
+      return vanLeerPart(f, beyond, p);
+    else
+    {
+      Pack const part = rangePart(f, weight, per_staying, deviation);
+      return limiter == RemapLimiter::RangeInside ? Math::max(part, beyond.at_boundary) : part;
+    }
   }
 
-  /// The deviations from the mean at the faces, and the largest part of them, at most all, that keeps those and the
-  /// mean of what stays within range.
-  KOKKOS_FORCEINLINE_FUNCTION static Pack rangePart(Field const &f, Outflow const &out, Pack const (&weight)[4],
-                                                    Pack const &per_staying, Pack (&deviation)[4])
+  /// The largest part of the deviations from the mean at the faces, at most all, that keeps those and the mean of what
+  /// stays within range.
+  KOKKOS_FORCEINLINE_FUNCTION static Pack rangePart(Field const &f, Pack const (&weight)[4], Pack const &per_staying,
+                                                    Pack const (&deviation)[4])
   {
     Pack low = 0.0, high = 0.0, left = 0.0;
     for (int k = 0; k < 4; ++k)
     {
-      if (!out.leaves[k])
-        continue;
-      deviation[k] = out.x[k] * f.gradient_x + out.y[k] * f.gradient_y;
       low = Math::min(low, deviation[k]);
       high = Math::max(high, deviation[k]);
       left -= weight[k] * deviation[k];
@@ -172,124 +169,126 @@ struct SweptFluxFunctor
     return select(rising, up_part, down_part) / select(rising, up_whole, down_whole);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION static Outflow outflow(Pack const (&row)[8], Pack const (&centre)[8])
+  KOKKOS_FORCEINLINE_FUNCTION Outflow outflow(int first) const
   {
     Outflow out;
-    out.moved_volume = out.staying = row[MovedVolume];
+    out.moved_volume = out.staying = loadPack(stage.at(MovedVolume, first));
     for (int k = 0; k < 4; ++k)
     {
-      auto const leaves = row[SweptVolume + k] > Pack(0.0);
-      out.leaves[k] = any(leaves);
-      out.volume[k] = select(leaves, row[SweptVolume + k], Pack(0.0));
-      out.x[k] = select(leaves, centre[2 * k], Pack(0.0));
-      out.y[k] = select(leaves, centre[2 * k + 1], Pack(0.0));
+      out.volume[k] = loadPack(stage.at(FaceColumn + num_face_columns * k, first));
+      out.x[k] = loadPack(stage.at(OffsetColumn + 2 * k, first));
+      out.y[k] = loadPack(stage.at(OffsetColumn + 2 * k + 1, first));
       out.staying = out.staying - out.volume[k];
     }
     return out;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block) const
+  KOKKOS_FORCEINLINE_FUNCTION void storeFlux(int first, int k, int field, Pack const &flux) const
   {
-    FluxCells cells;
-    if (!selectCells(block, cells))
-      return;
-    Pack row[8], centre[8];
-    loadGeometry(cells.cell, row);
-    loadRows([&](int lane) { return stage.centroidRow(cells.cell[lane]); }, centre);
-    Outflow const out = outflow(row, centre);
-    if (!(out.leaves[0] || out.leaves[1] || out.leaves[2] || out.leaves[3]))
-      return;
+    storePack(stage.at(FaceColumn + num_face_columns * k + 1 + field, first), flux);
+  }
+
+  /// The fluxes of a field that is weighted by what leaves, volume or mass.
+  KOKKOS_FORCEINLINE_FUNCTION void remapField(int first, int field, Directions const &directions, Beyond const &offset,
+                                              Columns const &columns, Outflow const &out, Pack const (&weight)[4],
+                                              Pack const &per_staying) const
+  {
+    Pack const q = loadPack(stage.at(FieldColumn + field, first));
+    Pack p[4], deviation[4];
+    for (int k = 0; k < 4; ++k)
+      p[k] = columns.load(k, FieldColumn + field);
+    Pack const part = limit(differentiate(directions, q, p), offset, p, out, weight, per_staying, deviation);
+    for (int k = 0; k < 4; ++k)
+      storeFlux(first, k, field, weight[k] * (q + part * deviation[k]));
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Beyond offsets(int first, Columns const &columns) const
+  {
     Beyond offset;
-    Pack density[4];
+    Pack const x = loadPack(stage.at(CentroidX, first)), y = loadPack(stage.at(CentroidY, first));
     for (int k = 0; k < 4; ++k)
     {
-      Pack beyond[8];
-      loadGeometry(cells.beyond[k], beyond);
-      offset.x[k] = beyond[CentroidX] - row[CentroidX];
-      offset.y[k] = beyond[CentroidY] - row[CentroidY];
-      density[k] = beyond[MovedDensity];
+      offset.x[k] = columns.load(k, CentroidX) - x;
+      offset.y[k] = columns.load(k, CentroidY) - y;
     }
-    constexpr int all_neighbours = 15 * NeighbourBit;
-    offset.at_boundary = packOf(
-        [&](int lane) { return (stage.flags[cells.cell[lane]] & all_neighbours) == all_neighbours ? 0.0 : 1.0; });
+    if constexpr (limiter == RemapLimiter::RangeInside)
+    {
+      constexpr int all_neighbours = 15 * NeighbourBit;
+      int const last = end - 1;
+      offset.at_boundary = packOf(
+          [&](int lane)
+          { return (stage.flags[Math::min(first + lane, last)] & all_neighbours) == all_neighbours ? 0.0 : 1.0; });
+    }
+    return offset;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int number) const
+  {
+    int const first = begin + number * pack_width;
+    int const block = stage.blockOf(first);
+    if ((block & PureBlock) == 0)
+      return;
+    if ((block & MovingBlock) == 0)
+    {
+      for (int k = 0; k < 4; ++k)
+        for (int field = 0; field < num_pair_fields; ++field)
+          storeFlux(first, k, field, 0.0);
+      return;
+    }
+    GatheredColumns gathered[4];
+    Columns const columns = columnsBeyond(first, block, gathered);
+    Outflow const out = outflow(first);
+    Beyond const offset = offsets(first, columns);
     Directions const directions = invert(offset.x, offset.y);
 
     // Density first: it gives the mass fluxes that weigh the primitives.
-    Pack const rho = row[MovedDensity];
+    Pack const rho = loadPack(stage.at(FieldColumn + DensityField, first));
     // Where all of a cell leaves, no mean of what stays bounds anything (largestSweptPart).
     auto const remains = out.staying > Pack(0.0);
     Pack const per_volume = select(remains, Pack(1.0 / select(remains, out.staying, Pack(1.0))), Pack(0.0));
-    Pack deviation[4] = {}, mass[4], flux[4][pack_width];
+    Pack deviation[4], density[4], mass[4];
+    for (int k = 0; k < 4; ++k)
+      density[k] = columns.load(k, FieldColumn + DensityField);
     Pack const part =
         limit(differentiate(directions, rho, density), offset, density, out, out.volume, per_volume, deviation);
     Pack staying_mass = out.moved_volume * rho;
     for (int k = 0; k < 4; ++k)
     {
-      mass[k] = 0.0;
-      if (out.leaves[k])
-        mass[k] = out.volume[k] * (rho + part * deviation[k]);
+      mass[k] = out.volume[k] * (rho + part * deviation[k]);
+      storeFlux(first, k, DensityField, mass[k]);
       staying_mass -= mass[k];
     }
     Pack const per_mass = 1.0 / staying_mass;
 
-    for (int first = 0; first < num_pair_fields; first += pack_width)
-    {
-      Pack q[pack_width], p[4][pack_width];
-      loadFields(cells.pair, first, q);
-      for (int k = 0; k < 4; ++k)
-        loadFields(cells.beyond_pair[k], first, p[k]);
-      for (int i = 0; i < pack_width; ++i)
-      {
-        int const field = first + i;
-        if (field == DensityField || (field == KineticField && !stage.carries()))
-        {
-          for (int k = 0; k < 4; ++k)
-            flux[k][i] = mass[k];
-          continue;
-        }
-        bool const by_volume = field >= DeviatorXX;
-        Pack const beyond[4] = {p[0][i], p[1][i], p[2][i], p[3][i]};
-        Pack const a = limit(differentiate(directions, q[i], beyond), offset, beyond, out,
-                             by_volume ? out.volume : mass, by_volume ? per_volume : per_mass, deviation);
-        for (int k = 0; k < 4; ++k)
-          if (out.leaves[k])
-            flux[k][i] = (by_volume ? out.volume[k] : mass[k]) * (q[i] + a * deviation[k]);
-      }
-      for (int k = 0; k < 4; ++k)
-        if (out.leaves[k])
-          storeFluxes(cells, k, first, flux[k]);
-    }
-  }
-
-  /// Fields first .. first + pack_width - 1 of the records; kinetic energy in place of the volume fraction.
-  KOKKOS_FORCEINLINE_FUNCTION void loadFields(int const pair[pack_width], int first, Pack (&q)[pack_width]) const
-  {
-    for (int lane = 0; lane < pack_width; ++lane)
-      q[lane] = loadPack(stage.record.row(pair[lane]) + first);
-    transpose(q);
-    if (stage.carries() && first <= KineticField && KineticField < first + pack_width)
-      q[KineticField - first] = packOf([&](int lane) { return stage.kinetic[pair[lane]]; });
-  }
-
-  KOKKOS_FORCEINLINE_FUNCTION void storeFluxes(FluxCells const &cells, int k, int first, Pack (&flux)[pack_width]) const
-  {
-    transpose(flux);
-    if (cells.lanes == all_lanes)
-      for (int lane = 0; lane < pack_width; ++lane)
-        storePack(stage.fluxRow(cells.cell[lane], k) + first, flux[lane]);
-    else
-      for (int lane = 0; lane < pack_width; ++lane)
-        if ((cells.lanes >> lane & 1u) != 0u)
-          storePack(stage.fluxRow(cells.cell[lane], k) + first, flux[lane]);
+    for (int field = stage.carries() ? KineticField : KineticField + 1; field < DeviatorXX; ++field)
+      remapField(first, field, directions, offset, columns, out, mass, per_mass);
+    for (int field = DeviatorXX; field < num_pair_fields; ++field)
+      remapField(first, field, directions, offset, columns, out, out.volume, per_volume);
   }
 };
+
+template <RemapLimiter limiter>
+void launch(SweptStage const &stage, int begin, int end)
+{
+  Kokkos::parallel_for("Harmos::remap::sweptFluxes", RangePolicy(0, numPacks(end - begin)),
+                       SweptFluxFunctor<limiter>{stage, begin, end});
+}
 
 } // namespace
 
 void sweptFluxes(SweptStage const &stage, int begin, int end)
 {
-  Kokkos::parallel_for("Harmos::remap::sweptFluxes", RangePolicy(0, numPacks(end - begin)),
-                       SweptFluxFunctor{stage, begin, end});
+  switch (stage.limiter)
+  {
+  case RemapLimiter::Range:
+    return launch<RemapLimiter::Range>(stage, begin, end);
+  case RemapLimiter::RangeInside:
+    return launch<RemapLimiter::RangeInside>(stage, begin, end);
+  case RemapLimiter::VanLeer:
+    return launch<RemapLimiter::VanLeer>(stage, begin, end);
+  case RemapLimiter::None:
+    return launch<RemapLimiter::None>(stage, begin, end);
+  }
 }
 
 } // namespace RemapDetail

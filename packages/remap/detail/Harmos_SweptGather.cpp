@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptStage.hpp>
 
+#include <Harmos_LoadPoints.hpp>
 #include <Harmos_Select.hpp>
 #include <detail/Harmos_FieldPack.hpp>
 
@@ -35,57 +36,129 @@ struct EdgePair
   int behind, ahead;
 };
 
+/// What the neighbours of a block's cells give: their faces' swept volumes and outgoing fluxes, column by column as in
+/// the window; zero where they do not count. Velocities one edge beyond the two nodes of each face; those nodes' own
+/// where the neighbour does not count: then the limited difference is zero.
+struct Neighbours
+{
+  double const *face[4];
+  std::ptrdiff_t stride[4];
+  Pack velocity_x[4][2], velocity_y[4][2];
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * stride[k]); }
+};
+/// The columns of a face, then x, y of the two velocities.
+using GatheredFace = double[num_face_columns + 4][pack_width];
+
 struct SweptGatherFunctor
 {
   SweptStage stage;
   int begin, end;
 
-  /// What the lanes' cells exchange with their neighbours.
-  struct Exchanged
+  /// The cells of a block. Those that are not pure repeat one that is.
+  struct Block
   {
-    FieldPack change[pack_width];  // sums what all fluxes bring
-    double outflow[4][pack_width]; // mass that leaves through each face
-    double volume[pack_width], moved_volume[pack_width], mass[pack_width];
+    int first;
+    int cell[pack_width], pair[pack_width];
+    unsigned pure; // lanes
+    int runs;      // SweptBlock
   };
 
-  /// False where nothing flows.
-  KOKKOS_FORCEINLINE_FUNCTION bool gather(int cell, int lane, Exchanged &e) const
+  /// What the cells exchange with their neighbours.
+  struct Exchanged
   {
-    double const *geometry = stage.cellRow(cell);
-    FieldPack change(0.0);
-    double volume = geometry[MovedVolume];
-    e.moved_volume[lane] = volume;
-    bool flows = false;
-    int const flags = stage.flags[cell];
-    bool const swept = (flags & all_swept_corners) != 0;
-    for (int k = 0; k < 4; ++k)
+    Pack change[num_pair_fields]; // sums what all fluxes bring
+    Pack outflow[4];              // mass that leaves through each face
+    Pack volume;                  // after
+    Pack flow;                    // zero where nothing moves
+  };
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack own(Block const &block, int column) const
+  {
+    return loadPack(stage.at(column, block.first));
+  }
+
+  /// Lane by lane, where the neighbours beyond a face are no run of cells.
+  HARMOS_RARE_FUNCTION void gatherFace(Block const &block, int k, GatheredFace &gathered) const
+  {
+    for (int lane = 0; lane < pack_width; ++lane)
     {
-      e.outflow[k][lane] = 0.0;
-      if (!swept || (flags & SameBeyondBit << k) == 0)
-        continue;
-      int const face = stage.face_neighbour(cell, k);
-      double const leaves = geometry[SweptVolume + k];
-      double const enters = stage.cellRow(face >> 2)[SweptVolume + (face & 3)];
-      if (leaves > 0.0)
+      int const cell = block.cell[lane];
+      bool const same = stage.sameBeyond(cell, k);
+      int const face = same ? stage.face_neighbour(cell, k) : 4 * cell + k;
+      double const *column = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
+      for (int c = 0; c < num_face_columns; ++c, column += stage.stride)
+        gathered[c][lane] = same ? *column : 0.0;
+      bool const goes_beyond = same && stage.second_order;
+      int const from = goes_beyond ? face >> 2 : cell;
+      for (int i = 0; i < 2; ++i)
       {
-        flows = true;
-        double const *flux = stage.fluxRow(cell, k);
-        volume -= leaves;
-        e.outflow[k][lane] = flux[DensityField];
-        change -= FieldPack(flux);
-      }
-      if (enters > 0.0)
-      {
-        flows = true;
-        double const *flux = stage.fluxRow(face >> 2, face & 3);
-        volume += enters;
-        e.outflow[k][lane] -= flux[DensityField];
-        change += FieldPack(flux);
+        double const *velocity = stage.at(velocityColumn(face, k, i, goes_beyond), from);
+        gathered[num_face_columns + 2 * i][lane] = velocity[0];
+        gathered[num_face_columns + 2 * i + 1][lane] = velocity[stage.stride];
       }
     }
-    e.volume[lane] = volume;
-    e.change[lane] = change;
-    return flows;
+  }
+
+  /// Of the velocity beyond our node k + i of face k. Our node k is the neighbour's f + 1, beyond it f + 2; our k + 1
+  /// is its f, beyond it f + 3.
+  KOKKOS_FORCEINLINE_FUNCTION static int velocityColumn(int face, int k, int i, bool goes_beyond)
+  {
+    return CornerColumn + 2 * ((goes_beyond ? face + 2 + i : k + i) & 3);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void findNeighbours(Block const &block, Neighbours &beyond,
+                                                  GatheredFace (&gathered)[4]) const
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      beyond.stride[k] = stage.stride;
+      double const *velocity[2];
+      if ((block.runs & RunBit << k) != 0)
+      {
+        int const face = stage.face_neighbour(block.first, k);
+        beyond.face[k] = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
+        for (int i = 0; i < 2; ++i)
+          velocity[i] =
+              stage.at(velocityColumn(face, k, i, stage.second_order), stage.second_order ? face >> 2 : block.first);
+      }
+      else
+      {
+        gatherFace(block, k, gathered[k]);
+        beyond.stride[k] = pack_width;
+        beyond.face[k] = gathered[k][0];
+        for (int i = 0; i < 2; ++i)
+          velocity[i] = gathered[k][num_face_columns + 2 * i];
+      }
+      for (int i = 0; i < 2; ++i)
+      {
+        beyond.velocity_x[k][i] = loadPack(velocity[i]);
+        beyond.velocity_y[k][i] = loadPack(velocity[i] + beyond.stride[k]);
+      }
+    }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Exchanged exchange(Block const &block, Neighbours const &beyond) const
+  {
+    Exchanged e;
+    e.volume = own(block, MovedVolume);
+    e.flow = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const face = FaceColumn + num_face_columns * k;
+      Pack const leaves = own(block, face), enters = beyond.load(k, 0);
+      e.flow += leaves + enters;
+      e.volume = e.volume - leaves + enters;
+      e.outflow[k] = own(block, face + 1 + DensityField) - beyond.load(k, 1 + DensityField);
+    }
+    for (int f = stage.carries() ? KineticField : KineticField + 1; f < num_pair_fields; ++f)
+    {
+      Pack change = 0.0;
+      for (int k = 0; k < 4; ++k)
+        change = change - own(block, FaceColumn + num_face_columns * k + 1 + f) + beyond.load(k, 1 + f);
+      e.change[f] = change;
+    }
+    return e;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void copyPair(int pair) const
@@ -95,43 +168,56 @@ struct SweptGatherFunctor
       stage.kinetic1[pair] = stage.kinetic[pair];
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void newRecord(int cell, int pair, int lane, Exchanged const &e, double mass1,
-                                             double per_volume, double per_mass) const
+  /// Of the materials of the lanes, one after the other.
+  KOKKOS_FORCEINLINE_FUNCTION void returnAllToYield(Block const &block, Pack (&q)[num_pair_fields]) const
   {
-    FieldPack q(stage.record.row(pair));
-    q.set<DensityField>(stage.cellRow(cell)[MovedDensity]);
-    if (stage.carries())
-      q.set<KineticField>(stage.kinetic[pair]);
-    FieldPack q1 =
-        (fieldWeights(e.moved_volume[lane], e.mass[lane]) * q + e.change[lane]) * fieldWeights(per_volume, per_mass);
-    if (stage.carries())
-      stage.kinetic1[pair] = q1[KineticField];
-    q1.set<Mass>(mass1);
-    q1.set<VolumeFraction>(1.0);
-    double *record = stage.record1.row(pair);
-    q1.store(record);
-    returnToYield(stage.materials[stage.pure_material[cell]], record);
+    unsigned left = all_lanes;
+    do
+    {
+      int lead = 0;
+      while ((left >> lead & 1u) == 0u)
+        ++lead;
+      int const number = stage.pure_material[block.cell[lead]];
+      unsigned mine = 0u;
+      for (int lane = 0; lane < pack_width; ++lane)
+        mine |= (stage.pure_material[block.cell[lane]] == number ? 1u : 0u) << lane;
+      Pack s[3] = {q[DeviatorXX], q[DeviatorYY], q[DeviatorXY]};
+      returnToYield(stage.materials[number], q[PlasticStrain], s[0], s[1], s[2]);
+      auto const take = packOf([&](int lane) { return (mine >> lane & 1u) != 0u ? 1.0 : 0.0; }) > Pack(0.0);
+      for (int i = 0; i < 3; ++i)
+        q[DeviatorXX + i] = select(take, s[i], q[DeviatorXX + i]);
+      left &= ~mine;
+    } while (left != 0u);
   }
 
-  /// The dof nodes one edge beyond the upwind nodes of two parallel edges; the upwind nodes themselves where the
-  /// neighbour does not count: then the limited difference is zero.
-  KOKKOS_FORCEINLINE_FUNCTION void dofsBeyond(int cell, int pair, int flags, bool forward, EdgePair const &edges,
-                                              int &first, int &second) const
+  KOKKOS_FORCEINLINE_FUNCTION void newRecords(Block const &block, Exchanged const &e, Pack const &mass,
+                                              Pack const &mass1) const
   {
-    int const upwind_face = forward ? edges.behind : edges.ahead;
-    int const up0 = edges.edge[forward ? 0 : 1];
-    int const up1 = edges.edge[forward ? 2 : 3];
-    if ((flags & SameBeyondBit << upwind_face) == 0 || !stage.second_order)
+    Pack const moved_volume = own(block, MovedVolume);
+    Pack const per_mass = 1.0 / mass1, per_volume = 1.0 / e.volume;
+    Pack q[num_pair_fields];
+    for (int f = stage.carries() ? KineticField : KineticField + 1; f < num_pair_fields; ++f)
     {
-      first = stage.dof_node(pair, up0);
-      second = stage.dof_node(pair, up1);
-      return;
+      bool const by_volume = f >= DeviatorXX;
+      q[f] = ((by_volume ? moved_volume : mass) * own(block, FieldColumn + f) + e.change[f]) *
+             (by_volume ? per_volume : per_mass);
     }
-    // our node k of the face is the neighbour's f + 1, beyond it f + 2; our k + 1 is its f, beyond it f + 3
-    int const face = stage.face_neighbour(cell, upwind_face);
-    int const neighbour = stage.first_pair[face >> 2];
-    first = stage.dof_node(neighbour, (face + (up0 == upwind_face ? 2 : 3)) & 3);
-    second = stage.dof_node(neighbour, (face + (up1 == upwind_face ? 2 : 3)) & 3);
+    returnAllToYield(block, q);
+    unsigned flowing = block.pure;
+    if (any(e.flow <= Pack(0.0)))
+      for (int lane = 0; lane < pack_width; ++lane)
+        if (!(laneOf(e.flow, lane) > 0.0) && (block.pure >> lane & 1u) != 0u)
+        {
+          flowing &= ~(1u << lane);
+          copyPair(block.pair[lane]);
+        }
+    if (stage.carries())
+      for (int lane = 0; lane < pack_width; ++lane)
+        if ((flowing >> lane & 1u) != 0u)
+          stage.kinetic1[block.pair[lane]] = laneOf(q[KineticField], lane);
+    q[Mass] = mass1;
+    q[VolumeFraction] = 1.0;
+    storeRows(q, flowing, [&](int lane) { return stage.record1.row(block.pair[lane]); });
   }
 
   /// Momentum along one edge a -> b: the upwind velocity at the face between them goes with the mass.
@@ -148,113 +234,91 @@ struct SweptGatherFunctor
     gain_b += select(forward, to_down, to_up);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void advect(int const cell[pack_width], int const pair[pack_width],
-                                          int const flags[pack_width], Pack const &G, Pack const &per_mass,
-                                          EdgePair const &edges, PackedCorners const &v, PackedCorners &gain) const
+  KOKKOS_FORCEINLINE_FUNCTION static void advect(Pack const &G, Pack const &per_mass, EdgePair const &edges,
+                                                 Neighbours const &beyond, PackedCorners const &v, PackedCorners &gain)
   {
     auto const forward = G > Pack(0.0);
-    int first[pack_width], second[pack_width];
-    for (int lane = 0; lane < pack_width; ++lane)
-      dofsBeyond(cell[lane], pair[lane], flags[lane], laneOf(forward, lane), edges, first[lane], second[lane]);
-    RowPointer<double, 2> const half = stage.half;
     Pack const flow = Math::fabs(G);
     Pack const part = 0.5 * (1.0 - Math::min(Pack(1.0), Pack(2.0 * flow * per_mass)));
     for (int e = 0; e < 2; ++e)
     {
       int const a = edges.edge[2 * e], b = edges.edge[2 * e + 1];
-      int const *dof = e == 0 ? first : second;
-      Pack const beyond_x = packOf([&](int lane) { return half(dof[lane], 0); });
-      Pack const beyond_y = packOf([&](int lane) { return half(dof[lane], 1); });
+      int const i = a == edges.behind ? 0 : 1, j = b == edges.ahead ? 0 : 1;
+      Pack const beyond_x = select(forward, beyond.velocity_x[edges.behind][i], beyond.velocity_x[edges.ahead][j]);
+      Pack const beyond_y = select(forward, beyond.velocity_y[edges.behind][i], beyond.velocity_y[edges.ahead][j]);
       transfer(forward, flow, part, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
       transfer(forward, flow, part, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
     }
   }
 
-  /// The pure cells of a pack: records and increments. Returns their kinetic energy before.
-  KOKKOS_FORCEINLINE_FUNCTION double exchange(int const cell[pack_width], unsigned pure) const
+  /// The momentum that the corners gain. \return The kinetic energy before, of the pure owned cells.
+  KOKKOS_FORCEINLINE_FUNCTION double moveMomentum(Block const &block, Neighbours const &beyond, Exchanged const &e,
+                                                  Pack const &mass) const
   {
-    Exchanged e;
-    int pair[pack_width], flags[pack_width];
-    unsigned flowing = 0u;
-    for (int lane = 0; lane < pack_width; ++lane)
-    {
-      pair[lane] = stage.first_pair[cell[lane]];
-      flags[lane] = stage.flags[cell[lane]];
-      e.mass[lane] = stage.record(pair[lane], Mass);
-      flowing |= (gather(cell[lane], lane, e) ? 1u : 0u) << lane;
-    }
-    Pack const mass = packOf([&](int lane) { return e.mass[lane]; });
-    Pack out[4];
-    for (int k = 0; k < 4; ++k)
-      out[k] = packOf([&](int lane) { return e.outflow[k][lane]; });
-    Pack const mass1 = mass - ((out[0] + out[1]) + (out[2] + out[3]));
-    Pack const per_mass1 = 1.0 / mass1;
-    Pack const per_volume = 1.0 / packOf([&](int lane) { return e.volume[lane]; });
-    for (int lane = 0; lane < pack_width; ++lane)
-      if ((pure >> lane & 1u) == 0u)
-        continue;
-      else if ((flowing >> lane & 1u) != 0u)
-        newRecord(cell[lane], pair[lane], lane, e, laneOf(mass1, lane), laneOf(per_volume, lane),
-                  laneOf(per_mass1, lane));
-      else
-        copyPair(pair[lane]);
-
     PackedCorners v, gain;
     Pack speed2 = 0.0;
     for (int k = 0; k < 4; ++k)
     {
-      int dof[pack_width];
-      for (int lane = 0; lane < pack_width; ++lane)
-        dof[lane] = stage.dof_node(pair[lane], k);
-      v.x[k] = packOf([&](int lane) { return stage.half(dof[lane], 0); });
-      v.y[k] = packOf([&](int lane) { return stage.half(dof[lane], 1); });
-      gain.x[k] = 0.0;
-      gain.y[k] = 0.0;
+      v.x[k] = own(block, CornerColumn + 2 * k);
+      v.y[k] = own(block, CornerColumn + 2 * k + 1);
+      gain.x[k] = gain.y[k] = 0.0;
       speed2 += v.x[k] * v.x[k] + v.y[k] * v.y[k];
     }
-    if (flowing != 0u)
+    Pack const per_mass = 1.0 / mass;
+    advect(0.25 * (e.outflow[1] - e.outflow[3]), per_mass, {{0, 1, 3, 2}, 3, 1}, beyond, v, gain);
+    advect(0.25 * (e.outflow[2] - e.outflow[0]), per_mass, {{0, 3, 1, 2}, 0, 2}, beyond, v, gain);
+    for (int k = 0; k < 4; ++k)
     {
-      Pack const per_mass = 1.0 / mass;
-      advect(cell, pair, flags, 0.25 * (out[1] - out[3]), per_mass, {{0, 1, 3, 2}, 3, 1}, v, gain);
-      advect(cell, pair, flags, 0.25 * (out[2] - out[0]), per_mass, {{0, 3, 1, 2}, 0, 2}, v, gain);
+      storePack(stage.at(IncrementColumn + 2 * k, block.first), gain.x[k]);
+      storePack(stage.at(IncrementColumn + 2 * k + 1, block.first), gain.y[k]);
     }
-    Pack const row[8] = {gain.x[0], gain.y[0], gain.x[1], gain.y[1], gain.x[2], gain.y[2], gain.x[3], gain.y[3]};
-    storeRows(row, pure, [&](int lane) { return stage.incrementRow(cell[lane]); });
-    for (int lane = 0; lane < pack_width; ++lane)
-      stage.mass[cell[lane] & stage.mask] = laneOf(mass1, lane);
-
     Pack const kinetic = 0.125 * mass * speed2;
     double sum = 0.0;
     for (int lane = 0; lane < pack_width; ++lane)
-      if ((pure >> lane & 1u) != 0u && stage.cell_depth[cell[lane]] == 0)
+      if ((block.pure >> lane & 1u) != 0u && stage.cell_depth[block.cell[lane]] == 0)
         sum += laneOf(kinetic, lane);
     return sum;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block, double &kinetic) const
+  KOKKOS_FORCEINLINE_FUNCTION Block selectCells(int first) const
   {
-    int const first = begin + block * pack_width;
+    Block block;
+    block.first = first;
+    block.pure = 0u;
+    block.runs = stage.blockOf(first);
     int const count = Math::min(pack_width, end - first);
-    unsigned pure = 0u;
     int lead = -1;
     for (int lane = 0; lane < count; ++lane)
-    {
-      int const cell = first + lane;
-      if ((stage.flags[cell] & PureCellBit) != 0)
+      if ((stage.flags[first + lane] & PureCellBit) != 0)
       {
-        pure |= 1u << lane;
+        block.pure |= 1u << lane;
         lead = lead < 0 ? lane : lead;
       }
       else
-        for (int pair = stage.first_pair[cell]; pair < stage.first_pair[cell + 1]; ++pair)
+        for (int pair = stage.first_pair[first + lane]; pair < stage.first_pair[first + lane + 1]; ++pair)
           copyPair(pair);
-    }
-    if (pure == 0u)
-      return;
-    int cell[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
-      cell[lane] = first + ((pure >> lane & 1u) != 0u ? lane : lead);
-    kinetic += exchange(cell, pure);
+    {
+      block.cell[lane] = first + ((block.pure >> lane & 1u) != 0u ? lane : Math::max(lead, 0));
+      block.pair[lane] = stage.first_pair[block.cell[lane]];
+    }
+    return block;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int number, double &kinetic) const
+  {
+    Block const block = selectCells(begin + number * pack_width);
+    if (block.pure == 0u)
+      return;
+    Neighbours beyond;
+    GatheredFace gathered[4];
+    findNeighbours(block, beyond, gathered);
+    Exchanged const e = exchange(block, beyond);
+    Pack const mass = own(block, OldMass);
+    Pack const mass1 = mass - ((e.outflow[0] + e.outflow[1]) + (e.outflow[2] + e.outflow[3]));
+    storePack(stage.at(NewMass, block.first), mass1);
+    newRecords(block, e, mass, mass1);
+    kinetic += moveMomentum(block, beyond, e, mass);
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptStage.hpp>
 
+#include <Harmos_LoadPoints.hpp>
 #include <Harmos_Select.hpp>
 
 namespace Harmos
@@ -169,6 +170,7 @@ struct SweptGeometryFunctor
         lanes |= 1u << lane;
         lead = lead < 0 ? lane : lead;
       }
+    stage.blockOf(first) = 0;
     if (lanes == 0u)
       return;
     int cell[pack_width], pair[pack_width], flags[pack_width];
@@ -180,7 +182,25 @@ struct SweptGeometryFunctor
       flags[lane] = stage.flags[cell[lane]];
       common &= flags[lane];
     }
-    compute(cell, pair, flags, common, lanes);
+    bool const moving = compute(first, cell, pair, flags, common);
+    stage.blockOf(first) =
+        PureBlock | (moving ? MovingBlock : 0) | (lanes == all_lanes ? runsBeyond(first, common) : 0);
+  }
+
+  /// RunBit of the faces beyond which the neighbours are a run of cells on a run of rows.
+  KOKKOS_FORCEINLINE_FUNCTION int runsBeyond(int first, int common) const
+  {
+    int runs = 0;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const face = stage.face_neighbour(first, k);
+      int differs = 0;
+      for (int lane = 1; lane < pack_width; ++lane)
+        differs |= stage.face_neighbour(first + lane, k) ^ (face + 4 * lane);
+      bool const wraps = ((face >> 2) & stage.mask) + pack_width > stage.mask + 1;
+      runs |= ((common & SameBeyondBit << k) != 0 && differs == 0 && !wraps ? RunBit : 0) << k;
+    }
+    return runs;
   }
 
   struct Volume
@@ -214,9 +234,11 @@ struct SweptGeometryFunctor
     }
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void compute(int const cell[pack_width], int const pair[pack_width],
-                                           int const flags[pack_width], int common, unsigned lanes) const
+  /// \return Whether material leaves any of the cells.
+  KOKKOS_FORCEINLINE_FUNCTION bool compute(int first, int const cell[pack_width], int const pair[pack_width],
+                                           int const flags[pack_width], int common) const
   {
+    auto const store = [&](int column, Pack const &value) { storePack(stage.at(column, first), value); };
     PackedVector moved[4], middle[4], back[4];
     for (int k = 0; k < 4; ++k)
     {
@@ -226,28 +248,31 @@ struct SweptGeometryFunctor
         node[lane] = stage.cell_node(cell[lane], k);
         dof[lane] = stage.dof_node(pair[lane], k);
       }
-      PackedVector const x{packOf([&](int lane) { return stage.position(node[lane], 0); }),
-                           packOf([&](int lane) { return stage.position(node[lane], 1); })};
-      PackedVector const u{stage.dt * packOf([&](int lane) { return stage.half(dof[lane], 0); }),
-                           stage.dt * packOf([&](int lane) { return stage.half(dof[lane], 1); })};
+      PackedVector x, v;
+      loadPoints([&](int lane) { return stage.position.row(node[lane]); }, x.x, x.y);
+      loadPoints([&](int lane) { return stage.half.row(dof[lane]); }, v.x, v.y);
+      store(CornerColumn + 2 * k, v.x);
+      store(CornerColumn + 2 * k + 1, v.y);
+      PackedVector const u = Pack(stage.dt) * v;
       moved[k] = x + u;
       PackedVector homeward = u;
       if (stage.retargeted)
-        homeward = u + (x - PackedVector{packOf([&](int lane) { return stage.target(node[lane], 0); }),
-                                         packOf([&](int lane) { return stage.target(node[lane], 1); })});
+      {
+        PackedVector home;
+        loadPoints([&](int lane) { return stage.target.row(node[lane]); }, home.x, home.y);
+        homeward = u + (x - home);
+      }
       back[k] = bitOf(flags, common, SweptCornerBit << k) * homeward;
       middle[k] = moved[k] - Pack(0.5) * back[k];
     }
     Volume const whole = volumeOf(moved);
-    Pack const inverse = whole.inverse;
     PackedVector const centroid = whole.centroid;
-    Pack const mass = packOf([&](int lane) { return stage.record(pair[lane], Mass); });
+    store(CentroidX, centroid.x);
+    store(CentroidY, centroid.y);
+    store(MovedVolume, whole.volume);
+    storeFields(first, pair, whole.inverse);
 
-    Pack row[8], centre[8];
-    row[MovedVolume] = whole.volume;
-    row[CentroidX] = centroid.x;
-    row[CentroidY] = centroid.y;
-    row[MovedDensity] = mass * inverse;
+    Pack out = 0.0;
     for (int k = 0; k < 4; ++k)
     {
       int const next = (k + 1) % 4;
@@ -259,13 +284,28 @@ struct SweptGeometryFunctor
       else
         swept = sweptRing(middle[k].x, edge, back[k], back[next], d_a, d_b);
       splitWhereEdgesCross<geometry>(middle[k].x, edge, back[k], back[next], d_a, d_b, swept);
-      row[SweptVolume + k] = bitOf(flags, common, NeighbourBit << k) * swept.volume;
+      Pack const volume = bitOf(flags, common, NeighbourBit << k) * swept.volume;
+      auto const leaves = volume > Pack(0.0);
       PackedVector const c = (middle[k] - centroid) + swept.centre;
-      centre[2 * k] = c.x;
-      centre[2 * k + 1] = c.y;
+      store(FaceColumn + num_face_columns * k, volume);
+      store(OffsetColumn + 2 * k, select(leaves, c.x, Pack(0.0)));
+      store(OffsetColumn + 2 * k + 1, select(leaves, c.y, Pack(0.0)));
+      out += volume;
     }
-    storeRows(row, lanes, [&](int lane) { return stage.cellRow(cell[lane]); });
-    storeRows(centre, lanes, [&](int lane) { return stage.centroidRow(cell[lane]); });
+    return any(out > Pack(0.0));
+  }
+
+  /// What is remapped, and the mass.
+  KOKKOS_FORCEINLINE_FUNCTION void storeFields(int first, int const pair[pack_width], Pack const &per_volume) const
+  {
+    Pack field[num_pair_fields];
+    loadRows([&](int lane) { return stage.record.row(pair[lane]); }, field);
+    storePack(stage.at(OldMass, first), field[Mass]);
+    field[DensityField] = field[Mass] * per_volume;
+    if (stage.carries())
+      field[KineticField] = packOf([&](int lane) { return stage.kinetic[pair[lane]]; });
+    for (int f = 0; f < num_pair_fields; ++f)
+      storePack(stage.at(FieldColumn + f, first), field[f]);
   }
 };
 

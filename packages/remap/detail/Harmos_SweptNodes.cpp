@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptStage.hpp>
 
-#include <Harmos_Pack.hpp>
+#include <Harmos_LoadPoints.hpp>
 
 namespace Harmos
 {
@@ -14,6 +14,7 @@ namespace
 struct SweptNodesFunctor
 {
   SweptStage stage;
+  int begin, end;
 
   /// Four times the nodal mass, and the momentum gained.
   struct Gathered
@@ -28,11 +29,11 @@ struct SweptNodesFunctor
     Gathered g{0.0, {0.0, 0.0}};
     for (int j = first; j < end; ++j)
     {
-      int const row = (stage.item[j] >> 2) & stage.mask;
-      double const *increment = stage.increment.row(row) + 2 * (stage.item[j] & 3);
-      g.four_mass += stage.mass[row];
+      int const cell = stage.item[j] >> 2;
+      double const *increment = stage.at(IncrementColumn + 2 * (stage.item[j] & 3), cell);
+      g.four_mass += *stage.at(NewMass, cell);
       g.gain[0] += increment[0];
-      g.gain[1] += increment[1];
+      g.gain[1] += increment[stage.stride];
     }
     return g;
   }
@@ -47,14 +48,14 @@ struct SweptNodesFunctor
       int const pure = stage.pure_material[cell];
       if (pure == -2)
         continue;
-      double const *increment = stage.incrementRow(cell) + 2 * corner;
+      double const *increment = stage.at(IncrementColumn + 2 * corner, cell);
       for (int pair = stage.first_pair[cell]; pair < stage.first_pair[cell + 1]; ++pair)
       {
         if (stage.dof_node(pair, corner) != dof || (pure < 0 && stage.isRigid(stage.pair_material[pair])))
           continue;
         g.four_mass += stage.record1(pair, Mass);
         if (pure >= 0)
-          g.gain += {increment[0], increment[1]};
+          g.gain += {increment[0], increment[stage.stride]};
       }
     }
     return g;
@@ -92,28 +93,121 @@ struct SweptNodesFunctor
     }
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(int node, double &impulse_x, double &impulse_y, double &kinetic) const
+  /// No cell around takes part.
+  KOKKOS_FORCEINLINE_FUNCTION void keep(int node) const
   {
-    if (stage.node_sweep[node] != PlainNode)
+    for (int dof = stage.first_dof[node]; dof < stage.first_dof[node + 1]; ++dof)
     {
+      stage.velocity1(dof, 0) = stage.half(dof, 0);
+      stage.velocity1(dof, 1) = stage.half(dof, 1);
+    }
+  }
+
+  /// What the nodes of a pack gather, and those of its lanes that are plain.
+  struct Plain
+  {
+    Pack four_mass = 1.0, gain_x = 0.0, gain_y = 0.0;
+    unsigned lanes = 0u;
+  };
+
+  /// Whether the nodes from `first` on are plain and each lies in four cells, which are runs of cells on runs of rows.
+  KOKKOS_FORCEINLINE_FUNCTION bool inRuns(int first) const
+  {
+    int const *item = stage.item + stage.first_item[first];
+    int differs = stage.first_item[first + 1] - stage.first_item[first] - 4;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      differs |= stage.node_sweep[first + lane] ^ PlainNode;
+      differs |= (stage.first_item[first + lane + 1] - stage.first_item[first + lane]) ^ 4;
+    }
+    if (differs != 0)
+      return false;
+    bool wraps = false;
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int lane = 1; lane < pack_width; ++lane)
+        differs |= item[4 * lane + i] ^ (item[i] + 4 * lane);
+      wraps = wraps || ((item[i] >> 2) & stage.mask) + pack_width > stage.mask + 1;
+    }
+    return differs == 0 && !wraps;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Plain gatherRuns(int first) const
+  {
+    Plain plain;
+    plain.four_mass = 0.0;
+    plain.lanes = all_lanes;
+    for (int i = 0; i < 4; ++i)
+    {
+      int const item = stage.item[stage.first_item[first] + i];
+      double const *increment = stage.at(IncrementColumn + 2 * (item & 3), item >> 2);
+      plain.four_mass += loadPack(stage.at(NewMass, item >> 2));
+      plain.gain_x += loadPack(increment);
+      plain.gain_y += loadPack(increment + stage.stride);
+    }
+    return plain;
+  }
+
+  /// The plain nodes of a pack one by one; the others are dealt with.
+  KOKKOS_FORCEINLINE_FUNCTION Plain gatherLanes(int first, int count, double &impulse_x, double &impulse_y,
+                                                double &kinetic) const
+  {
+    double mass[pack_width], gain_x[pack_width], gain_y[pack_width];
+    Plain plain;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      mass[lane] = 1.0;
+      gain_x[lane] = gain_y[lane] = 0.0;
+      int const node = first + lane;
+      if (lane >= count)
+        continue;
       if (stage.node_sweep[node] == SpecialNode)
         special(node, impulse_x, impulse_y, kinetic);
+      else if (stage.node_sweep[node] == UntouchedNode)
+        keep(node);
       else
-        for (int dof = stage.first_dof[node]; dof < stage.first_dof[node + 1]; ++dof)
-        {
-          stage.velocity1(dof, 0) = stage.half(dof, 0);
-          stage.velocity1(dof, 1) = stage.half(dof, 1);
-        }
-      return;
+      {
+        Gathered const g = gatherPure(stage.first_item[node], stage.first_item[node + 1]);
+        mass[lane] = g.four_mass;
+        gain_x[lane] = g.gain[0];
+        gain_y[lane] = g.gain[1];
+        plain.lanes |= 1u << lane;
+      }
     }
-    Gathered const g = gatherPure(stage.first_item[node], stage.first_item[node + 1]);
-    int const dof = stage.first_dof[node];
-    double const per_mass = 4.0 / g.four_mass;
-    double const x = stage.half(dof, 0) + per_mass * g.gain[0];
-    double const y = stage.half(dof, 1) + per_mass * g.gain[1];
-    stage.velocity1(dof, 0) = x;
-    stage.velocity1(dof, 1) = y;
-    kinetic += 0.125 * g.four_mass * (x * x + y * y);
+    plain.four_mass = loadPack(mass);
+    plain.gain_x = loadPack(gain_x);
+    plain.gain_y = loadPack(gain_y);
+    return plain;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int number, double &impulse_x, double &impulse_y, double &kinetic) const
+  {
+    int const first = begin + number * pack_width;
+    int const count = Math::min(pack_width, end - first);
+    Plain const plain = count == pack_width && inRuns(first) ? gatherRuns(first)
+                                                             : gatherLanes(first, count, impulse_x, impulse_y, kinetic);
+    if (plain.lanes == 0u)
+      return;
+    int dof[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      dof[lane] = stage.first_dof[Math::min(first + lane, end - 1)];
+    Pack x, y;
+    loadPoints([&](int lane) { return stage.half.row(dof[lane]); }, x, y);
+    Pack const per_mass = 4.0 / plain.four_mass;
+    x = x + per_mass * plain.gain_x;
+    y = y + per_mass * plain.gain_y;
+    Pack const energy = 0.125 * plain.four_mass * (x * x + y * y);
+    if (plain.lanes == all_lanes)
+      storePoints([&](int lane) { return stage.velocity1.row(dof[lane]); }, x, y);
+    for (int lane = 0; lane < pack_width; ++lane)
+      if ((plain.lanes >> lane & 1u) != 0u)
+      {
+        kinetic += laneOf(energy, lane);
+        if (plain.lanes == all_lanes)
+          continue;
+        stage.velocity1(dof[lane], 0) = laneOf(x, lane);
+        stage.velocity1(dof[lane], 1) = laneOf(y, lane);
+      }
   }
 };
 
@@ -122,8 +216,8 @@ struct SweptNodesFunctor
 void sweptNodes(SweptStage const &stage, int begin, int end, SweptSums &sums)
 {
   double impulse_x = 0.0, impulse_y = 0.0, kinetic = 0.0;
-  Kokkos::parallel_reduce("Harmos::remap::sweptNodes", RangePolicy(begin, end), SweptNodesFunctor{stage}, impulse_x,
-                          impulse_y, kinetic);
+  Kokkos::parallel_reduce("Harmos::remap::sweptNodes", RangePolicy(0, numPacks(end - begin)),
+                          SweptNodesFunctor{stage, begin, end}, impulse_x, impulse_y, kinetic);
   sums.wall_impulse += Vector2{impulse_x, impulse_y};
   sums.kinetic_after += kinetic;
 }

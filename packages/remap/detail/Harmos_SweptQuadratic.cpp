@@ -94,9 +94,9 @@ struct SweptSpreadFunctor
     q.size = 4;
     for (int k = 0; k < 4; ++k)
       q[k] = c.moved[k];
-    double const *row = stage.cellRow(cell);
     double second[3];
-    spreadOfPolygon(q, stage.geometry, {row[CentroidX], row[CentroidY]}, row[MovedVolume], second);
+    spreadOfPolygon(q, stage.geometry, {*stage.at(CentroidX, cell), *stage.at(CentroidY, cell)},
+                    *stage.at(MovedVolume, cell), second);
     for (int i = 0; i < 3; ++i)
       stage.spread(cell & stage.mask, i) = second[i];
   }
@@ -121,7 +121,7 @@ struct SweptQuadraticFunctor
   /// A cell that loses material.
   struct Donor
   {
-    int cell, pair;
+    int cell;
     Spread spread;
     FieldPack q, lower, upper;
     FieldPack coefficient[5];
@@ -133,18 +133,16 @@ struct SweptQuadraticFunctor
 
   KOKKOS_INLINE_FUNCTION Spread spreadOf(int cell) const
   {
-    double const *row = stage.cellRow(cell), *second = stage.spread.row(cell & stage.mask);
-    return {{row[CentroidX], row[CentroidY]}, {second[0], second[1], second[2]}};
+    double const *second = stage.spread.row(cell & stage.mask);
+    return {{*stage.at(CentroidX, cell), *stage.at(CentroidY, cell)}, {second[0], second[1], second[2]}};
   }
 
   KOKKOS_INLINE_FUNCTION FieldPack valueOf(int cell) const
   {
-    int const pair = stage.first_pair[cell];
-    FieldPack q(stage.record.row(pair));
-    q.set<DensityField>(stage.cellRow(cell)[MovedDensity]);
-    if (stage.carries())
-      q.set<KineticField>(stage.kinetic[pair]);
-    return q;
+    double q[FieldPack::fields];
+    for (int f = 0; f < FieldPack::fields; ++f)
+      q[f] = *stage.at(FieldColumn + f, cell);
+    return FieldPack(q);
   }
 
   KOKKOS_INLINE_FUNCTION void fit(Donor &d) const
@@ -247,25 +245,30 @@ struct SweptQuadraticFunctor
 
   KOKKOS_INLINE_FUNCTION void operator()(int cell) const
   {
-    double const *row = stage.cellRow(cell);
-    if ((stage.flags[cell] & all_swept_corners) == 0 ||
-        !(row[SweptVolume] + row[SweptVolume + 1] + row[SweptVolume + 2] + row[SweptVolume + 3] > 0.0))
+    if ((stage.flags[cell] & PureCellBit) == 0)
+      return;
+    double swept_volume = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      swept_volume += *stage.at(FaceColumn + num_face_columns * k, cell);
+      storeFlux(cell, k, FieldPack(0.0));
+    }
+    if (!(swept_volume > 0.0))
       return;
     Donor d;
     d.cell = cell;
-    d.pair = stage.first_pair[cell];
     d.spread = spreadOf(cell);
-    d.volume = row[MovedVolume];
-    d.density = row[MovedDensity];
+    d.volume = *stage.at(MovedVolume, cell);
+    d.density = *stage.at(FieldColumn + DensityField, cell);
     d.q = valueOf(cell);
     SweptCorners const corners = sweptCorners(stage, cell);
     double staying_volume = d.volume;
     for (int k = 0; k < 4; ++k)
     {
-      d.swept_volume[k] = Math::max(row[SweptVolume + k], 0.0);
+      d.swept_volume[k] = *stage.at(FaceColumn + num_face_columns * k, cell);
       d.swept_mass[k] = 0.0;
       staying_volume -= d.swept_volume[k];
-      Vector2 const offset{stage.centroidRow(cell)[2 * k], stage.centroidRow(cell)[2 * k + 1]};
+      Vector2 const offset{*stage.at(OffsetColumn + 2 * k, cell), *stage.at(OffsetColumn + 2 * k + 1, cell)};
       if (d.swept_volume[k] > 0.0)
         d.swept[k] = spreadOfSwept(corners, k, stage.geometry, d.swept_volume[k], d.spread.centroid + offset);
     }
@@ -288,8 +291,14 @@ struct SweptQuadraticFunctor
         continue;
       FieldPack flux = fieldWeights(d.swept_volume[k], d.swept_mass[k]) * (d.q + all * d.deviation[k]);
       flux.set<DensityField>(d.swept_mass[k]);
-      flux.store(stage.fluxRow(cell, k));
+      storeFlux(cell, k, flux);
     }
+  }
+
+  KOKKOS_INLINE_FUNCTION void storeFlux(int cell, int k, FieldPack const &flux) const
+  {
+    for (int f = 0; f < FieldPack::fields; ++f)
+      *stage.at(FaceColumn + num_face_columns * k + 1 + f, cell) = flux[f];
   }
 };
 

@@ -81,11 +81,9 @@ SweptWindow sweptWindow(SweptChunks const &chunks)
   int const rows = 4 * chunks.chunk;
   SweptWindow window;
   window.mask = rows - 1;
-  window.cell = scratch<double *[8]>("sweptCell", rows);
-  window.face_centroid = scratch<double *[8]>("faceCentroid", rows);
-  window.flux = scratch<double *[32]>("flux", rows);
-  window.increment = scratch<double *[8]>("cornerIncrement", rows);
-  window.mass = scratch<double *>("sweptMass", rows);
+  window.stride = rows + 8; // a row's columns fall on different sets of the cache
+  window.columns = View<double *>("Harmos::remap::sweptColumns", num_swept_columns * window.stride);
+  window.block = View<int *>("Harmos::remap::sweptBlocks", rows / pack_width);
   return window;
 }
 
@@ -107,9 +105,8 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
       record(in.state.record), half(in.half), kinetic(kinetic_before.data()), flags(classes.flags.data()),
       pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
       node_final(classes.node_final.data()), node_sweep(classes.node_sweep.data()), mask(window.mask),
-      cell(window.cell), face_centroid(window.face_centroid), increment(window.increment), flux(window.flux),
-      mass(window.mass.data()), spread(window.spread), record1(record_after), velocity1(velocity_after),
-      kinetic1(kinetic_after.data())
+      stride(window.stride), columns(window.columns.data()), block(window.block.data()), spread(window.spread),
+      record1(record_after), velocity1(velocity_after), kinetic1(kinetic_after.data())
 {
 }
 

@@ -2,6 +2,7 @@
 #ifndef HARMOS_SWEPT_STAGE_HPP
 #define HARMOS_SWEPT_STAGE_HPP
 
+#include <Harmos_Pack.hpp>
 #include <Harmos_RowPointer.hpp>
 #include <detail/Harmos_RemapClasses.hpp>
 
@@ -19,27 +20,43 @@ enum StageField : int
   KineticField = 1  // where it is carried: kinetic energy per mass; damage where that is tracked (also by mass)
 };
 
-/// Columns of SweptWindow::cell.
-enum SweptCell : int
+/// Columns of SweptWindow.
+enum SweptColumn : int
 {
-  MovedVolume = 0, // of the cell with all its nodes at x'
-  CentroidX = 1,
-  CentroidY = 2,
-  MovedDensity = 3,
-  SweptVolume = 4 // what the faces 0..3 sweep out of the cell, >= 0: the neighbour's is what they sweep into it
+  CentroidX = 0, // of the cell with all its nodes at x'
+  CentroidY = 1,
+  FieldColumn = 2, // + field: what is remapped, the density that of the moved cell
+  MovedVolume = 10,
+  OldMass = 11,
+  NewMass = 12,
+  CornerColumn = 13, // + 2 * corner: x, y of the velocity
+  FaceColumn = 21,   // + 9 * face: the volume that it sweeps out of the cell, >= 0 (the neighbour's is what
+                     // it sweeps into the cell); then the outgoing fluxes, + 1 + field
+  OffsetColumn = 57, // + 2 * face: x, y of the swept centroid from the cell's, zero where nothing leaves
+  IncrementColumn = OffsetColumn, // + 2 * corner: momentum gained by the corners, when the offsets have served
+  num_swept_columns = 65
+};
+constexpr int num_neighbour_columns = 10; // what fluxes need of neighbours: centroid and fields
+constexpr int num_face_columns = 9;
+
+/// What stage 1 knows of a block of cells, pack_width of them, as bits.
+enum SweptBlock : int
+{
+  PureBlock = 1,   // holds a pure cell
+  MovingBlock = 2, // material leaves one of its cells
+  RunBit = 1 << 2  // << k: beyond face k lies a run of cells, all pure and of the material on this side
 };
 
-/// What the kernels of stage 1 hand to one another. Cells share rows: cell c uses row c & mask, for as long as it is
-/// needed (SweptChunks), so that the arrays stay in the cache.
+/// What the kernels of stage 1 hand to one another, column by column, so that packs are loaded and stored whole. Cells
+/// share rows: cell c uses row c & mask, for as long as it is needed (SweptChunks), so that all stays in the cache.
+/// The rows of a block's other cells repeat a pure one.
 struct SweptWindow
 {
   int mask = 0;
-  View<double *[8]> cell;          // SweptCell
-  View<double *[8]> face_centroid; // x, y of the faces' swept centroids, from the cell's
-  View<double *[32]> flux;         // outgoing fluxes: face * 8 + field
-  View<double *[8]> increment;     // momentum gained by the corners
-  View<double *> mass;             // after
-  View<double *[4]> spread;        // order 3: the moved cell's central second moments xx, xy, yy over its volume
+  std::ptrdiff_t stride = 0; // of the columns
+  View<double *> columns;
+  View<int *> block;        // SweptBlock, a number for pack_width rows
+  View<double *[4]> spread; // order 3: the moved cell's central second moments xx, xy, yy over its volume
 };
 
 /// Order of stage 1: cells in chunks, so large that vertex neighbours are at most one chunk apart. While the geometry
@@ -90,10 +107,10 @@ struct SweptStage
 
   int const *flags, *pure_material, *node_return, *node_final, *node_sweep; // of Classes
 
-  int mask;
-  RowPointer<double, 8> cell, face_centroid, increment; // of the window
-  RowPointer<double, 32> flux;
-  double *mass;
+  int mask; // of the window, as what follows
+  std::ptrdiff_t stride;
+  double *columns;
+  int *block;
   RowPointer<double, 4> spread;
 
   RowPointer<double, num_pair_fields> record1; // after; a copy where nothing flows
@@ -101,10 +118,15 @@ struct SweptStage
   double *kinetic1;
 
   KOKKOS_FORCEINLINE_FUNCTION bool carries() const { return kinetic != nullptr; }
-  KOKKOS_FORCEINLINE_FUNCTION double *cellRow(int c) const { return cell.row(c & mask); }
-  KOKKOS_FORCEINLINE_FUNCTION double *centroidRow(int c) const { return face_centroid.row(c & mask); }
-  KOKKOS_FORCEINLINE_FUNCTION double *incrementRow(int c) const { return increment.row(c & mask); }
-  KOKKOS_FORCEINLINE_FUNCTION double *fluxRow(int c, int face) const { return flux.row(c & mask) + 8 * face; }
+  KOKKOS_FORCEINLINE_FUNCTION double *at(int column, int cell) const
+  {
+    return columns + column * stride + (cell & mask);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int &blockOf(int cell) const { return block[(cell & mask) / pack_width]; }
+  KOKKOS_FORCEINLINE_FUNCTION bool sameBeyond(int cell, int face) const
+  {
+    return (flags[cell] & SameBeyondBit << face) != 0;
+  }
   KOKKOS_FORCEINLINE_FUNCTION bool isRigid(int material) const { return materials[material].rigid_body >= 0; }
 };
 
