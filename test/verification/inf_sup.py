@@ -23,6 +23,7 @@ from harness import ROOT
 
 ROWS = os.environ.get("HARMOS_INTERFACE_ROWS", str(ROOT / "build/native/packages/constrain/InterfaceRows"))
 PLACEMENTS = ["midpoint", "gauss points", "segment ends", "vital vertices", "mortar"]
+MARKERS = {"midpoint": "o-", "gauss points": "s-", "segment ends": "v-", "vital vertices": "D--", "mortar": "^-"}
 ANGLES = [0.0, 20.0, 35.0, 45.0]
 OFFSETS = [0.0, 1e-3, 0.21, 0.37, 0.5]
 
@@ -115,6 +116,7 @@ def measure(finest):
 
 def table(found):
     cells = list(next(iter(found.values())))
+    """Least values over offsets, at the angles."""
     lines = ["| placement | " + " | ".join(f"{n} cells" for n in cells) + " |", "| --- " * (len(cells) + 1) + "|"]
     for placement, by_cells in found.items():
         entries = [", ".join(f"{by_cells[n][angle]:.2g}" for angle in ANGLES) for n in cells]
@@ -126,16 +128,19 @@ def chart(found, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, all_axes = plt.subplots(1, len(ANGLES), figsize=(12, 3.6), sharey=True)
+    from matplotlib.ticker import NullFormatter
+    figure, all_axes = plt.subplots(1, len(ANGLES), figsize=(13, 3.8), sharey=True)
+    nothing = 1e-6
     for angle, axes in zip(ANGLES, all_axes):
         for placement, by_cells in found.items():
-            axes.loglog(list(by_cells), [max(v[angle], 1e-5) for v in by_cells.values()], "o-", label=placement)
+            axes.loglog(list(by_cells), [max(v[angle], nothing) for v in by_cells.values()], MARKERS[placement], label=placement)
         axes.set_title(f"{angle:.0f} degrees")
         axes.set_xlabel("cells")
-        axes.set_xticks(list(by_cells), [str(n) for n in by_cells], minor=False)
+        axes.set_xticks(list(by_cells), [str(n) for n in by_cells])
+        axes.xaxis.set_minor_formatter(NullFormatter())
         axes.grid(True, which="major", alpha=0.4)
-    all_axes[0].set_ylabel("inf-sup value, least over offsets")
-    all_axes[-1].legend(fontsize=8)
+    all_axes[0].set_ylabel(f"inf-sup value, least over offsets\n({nothing:.0e}: none)")
+    all_axes[-1].legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
     figure.tight_layout()
     figure.savefig(path, dpi=110)
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Slivers neither shorten the time step nor blow up; the stable Courant number of xfem is that of single."""
 from harness import ROOT, check, clean, harmos, run
+from contact_iterations import iterations_of_strip
 from stability_atlas import deviation
 
 DECK = ROOT / "test/verification/decks/sliver.yaml"
@@ -54,6 +55,14 @@ def test_mortar_multipliers_halve_the_deviation_of_midpoints():
     # What is left is not theirs: the forces of a pressure in a cut cell are those of the cell's mean gradient (tstVitalVertices has the exact ones).
     for angle, bound in ((0.0, 1e-6), (20.0, 0.15), (35.0, 0.25)):
         check(f"mortar, {angle:.0f} degrees: deviation of the tractions", deviation("mortar", angle), bound)
+
+
+def test_iterations_stay_below_fifty_where_many_places_settle():
+    # Without active sets that change at all places at once the first takes 99, the second 54.
+    for friction in (False, True):
+        found = iterations_of_strip(100, friction, "projected newton")
+        check(f"150 rows{', friction' if friction else ''}: most iterations", found["most"], 50)
+        check("cycles that missed the tolerance", found["missed"], 0)
 
 
 run(globals())

@@ -10,7 +10,8 @@ import pathlib
 import tempfile
 from math import cos, exp, radians, sin, sqrt
 
-from harness import EXAMPLE, ROOT, clean, harmos, read_columns
+import contact_iterations
+from harness import ROOT, clean, harmos, read_columns
 from sliding_block import SQUEEZE, momentum_error, settings as sliding
 
 CONSTRAINT = "numerics/constraint"
@@ -31,6 +32,7 @@ METHODS = {
 CUTS = [0.5, 1e-2, 1e-6, 1e-10]
 COURANTS = [0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95]
 CONTRASTS = [1.0, 1e3, 1e6]
+RIM_SPEEDS = [0.1, 1.0, 3.0, 10.0]  # over the speed of sound
 QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": "false"}
 INTRODUCTION = """# Stability atlas
 
@@ -100,6 +102,27 @@ def deviation(method, angle):
     return found
 
 
+def sheared(method, rim_speed):
+    """A disc spins in a socket that is at rest and holds it: the cells at the rim are sheared by up to the travel limit in a step.
+    Whether 300 cycles pass without more kinetic energy than at the start."""
+    tied = {} if method == "merged velocity" else {"interactions": "{default: bonded}"}
+    r = harmos(ROOT / "test/verification/decks/socket.yaml", {
+        "bodies/disc/angular_velocity": 2.0 * rim_speed, "run/end_time": 1e3, "run/max_cycles": 300, **tied, **METHODS[method]}, expect=None)
+    good = r.status == 0 and max(r["kinetic_energy"]) <= 1.001 * r.first("kinetic_energy") and r.summary["energy_error"] < 1e-8
+    clean(r)
+    return good
+
+
+def largest_shear(method, speeds):
+    """The largest rim speed up to which all pass; 0: none."""
+    largest = 0.0
+    for speed in speeds:
+        if not sheared(method, speed):
+            break
+        largest = speed
+    return largest
+
+
 def spread(contact, r):
     """dt of each line of contact.csv."""
     step = dict(zip(r["cycle"], r["dt"]))
@@ -148,6 +171,7 @@ def measure(quick, jobs):
                 f[f"{name} block, {key}"] = max((r[key] if r else float("inf")) for r in runs)
         for angle in (0.0, 20.0):
             f[f"uniform pressure, deviation, {angle:.0f} degrees"] = deviation(method, angle)
+        f["shear, rim speed over c"] = largest_shear(method, RIM_SPEEDS[-1:] if quick else RIM_SPEEDS)
         for contrast in contrasts:
             f[f"stress error, density {contrast:.0e}"] = bars(method, contrast, 1.0)
         for contrast in contrasts[1:]:
@@ -161,7 +185,7 @@ def measure(quick, jobs):
 
 
 GOOD_AND_BAD = {"stable": (0.9, 0.3), "momentum": (3e-3, 0.3), "overlap": (0.05, 5.0), "iterations": (50.0, 1000.0), "energy": (1e-3, 0.3),
-                "deviation": (0.1, 1.0), "stress": (0.03, 0.5)}
+                "deviation": (0.1, 1.0), "stress": (0.03, 0.5), "shear": (10.0, 0.1)}
 
 
 def badness(column, value):
@@ -175,7 +199,16 @@ def badness(column, value):
     return min(1.0, max(0.0, log(value / good) / log(bad / good)))
 
 
-def write(found, folder):
+def further_sections(quick, folder):
+    """Inf-sup values and iterations against the number of rows."""
+    import inf_sup
+    values = inf_sup.measure(16 if quick else 64)
+    inf_sup.chart(values, folder / "inf-sup.png")
+    columns = contact_iterations.COLUMNS[:2] if quick else contact_iterations.COLUMNS
+    return INF_SUP + inf_sup.table(values) + ITERATIONS + contact_iterations.table(contact_iterations.measure(columns))
+
+
+def write(found, sections, folder):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -184,7 +217,7 @@ def write(found, folder):
     table = ["| | " + " | ".join(methods) + " |", "| --- " * (len(methods) + 1) + "|"]
     for column in columns:
         table.append(f"| {column} | " + " | ".join(f"{found[m][column]:.3g}" for m in methods) + " |")
-    (folder / "stability-atlas.md").write_text(INTRODUCTION + EXPLANATION + "\n".join(table) + "\n")
+    (folder / "stability-atlas.md").write_text(INTRODUCTION + EXPLANATION + "\n".join(table) + "\n" + sections)
     colour = [[badness(c, found[m][c]) for m in methods] for c in columns]
     figure, axes = plt.subplots(figsize=(1.2 * len(methods) + 3.5, 0.3 * len(columns) + 1.6))
     axes.imshow(colour, cmap="RdYlGn_r", vmin=0.0, vmax=1.0, aspect="auto")
@@ -204,9 +237,32 @@ EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0
   energy lost by contact over the energy at the start.
 - **uniform pressure**: two blocks under one pressure fill a closed box, their interface upright or at 20 degrees to the mesh: root mean square deviation of the segments' tractions from their mean, by length, over the pressure, cycles 31
   to 60 (exact: 0).
+- **shear**: the largest of 0.1, 1, 3, 10 for the rim's speed over that of sound up to which an elastic disc spins within a fixed rigid socket that is tied to it (merged velocity ties by itself), 300 cycles without a gain of energy: beyond 1 the step is that of travel limits,
+  and the cells between the rim and the first free nodes are sheared by up to 0.9 of their width in each.
 - **stress error**: of the contact stress of two bars, 20 cells each, of which one is denser or stiffer by the factor (exact: V Z1 Z2/(Z1 + Z2); much stiffer: Z1 V exp(-Z1 t/(rho2 L))).
 
 Colours: green good, red failed, on a logarithmic scale between marks for each kind of number. `inf`: the run failed, or its velocities grew until it stood still.
+
+"""
+
+INF_SUP = """
+## Inf-sup
+
+A choice of multipliers is stable where no traction escapes the velocities, however fine the mesh: where beta, the least over all tractions q of the largest b(q, v)/(|q| |v|) over all velocities v, does not fall with h
+(Chapelle & Bathe, Comput. Struct. 47 (1993) 537). b is the integral of q n . (v_b - v_a); |v|^2 the sum over pairs of volume fraction times the integral of grad v : grad v + v . v over the cell, as Harmos weights stiffness and mass; |q|^2 = h times the integral of q^2, which stands for
+the H^(-1/2) norm (as in Bechet, Moes & Wohlmuth, Int. J. Numer. Meth. Engng 78 (2009) 931). Harmos's own rows (`packages/constrain/test/InterfaceRows.cpp`) of a straight interface through the unit square, at 0, 20, 35 and 45 degrees, each the least over five offsets between 0
+and half a cell (`test/verification/inf_sup.py`):
+
+![inf-sup values](inf-sup.png)
+
+"""
+ITERATIONS = """
+Only mortar multipliers are stable at every angle. On an interface along the mesh one multiplier a column, at the midpoint, does not see tractions that alternate from column to column, and vital vertices, whose approach is judged at midpoints too, are the same there: beta is proportional to h. Two points a
+segment are too many at any angle.
+
+## Iterations against the number of multipliers
+
+Two blocks under one pressure meet and slide on each other at 2e-3 of the speed of sound along an interface that crosses a strip of 10 to 10,000 columns of 8 cells, 20 cycles, tolerance 1e-8 (`test/verification/contact_iterations.py`; goal: at most 50):
 
 """
 
@@ -218,5 +274,5 @@ if __name__ == "__main__":
     arguments = parser.parse_args()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="harmos-atlas-") if arguments.quick else arguments.output)
     folder.mkdir(parents=True, exist_ok=True)
-    write(measure(arguments.quick, arguments.jobs), folder)
+    write(measure(arguments.quick, arguments.jobs), further_sections(arguments.quick, folder), folder)
     print("written to", folder)

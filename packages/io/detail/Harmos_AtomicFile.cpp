@@ -35,18 +35,38 @@ void publishFile(std::string const &temporary, std::string const &path)
     fail("cannot rename " + temporary + " to", path);
 }
 
+bool writeAll(int file, char const *data, std::size_t size)
+{
+  while (size > 0)
+  {
+    ssize_t const written = ::write(file, data, size);
+    if (written < 0 && errno != EINTR)
+      return false;
+    std::size_t const done = written > 0 ? static_cast<std::size_t>(written) : 0;
+    data += done;
+    size -= done;
+  }
+  return true;
+}
+
+void writeFile(std::string const &path, char const *data, std::size_t size)
+{
+  int const file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0)
+    fail("cannot create", path);
+  bool const good = writeAll(file, data, size);
+  int const reason = errno;
+  if (::close(file) != 0 && good)
+    fail("cannot close", path);
+  errno = reason;
+  if (!good)
+    fail("cannot write", path);
+}
+
 void writeFileAtomically(std::string const &path, std::string const &content)
 {
   std::string const temporary = path + ".tmp";
-  {
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    if (!file)
-      fail("cannot create", temporary);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    if (!file)
-      fail("cannot write", temporary);
-  }
+  writeFile(temporary, content.data(), content.size());
   publishFile(temporary, path);
 }
 

@@ -65,12 +65,13 @@ CsvFile::~CsvFile()
 
 void CsvFile::append(std::string const &lines)
 {
-  ssize_t written;
-  do
-    written = ::write(file_, lines.data(), lines.size());
-  while (written < 0 && errno == EINTR);
-  if (written != static_cast<ssize_t>(lines.size()))
-    throw std::runtime_error("cannot append to '" + path_ + "': " + (written < 0 ? std::strerror(errno) : "disk full"));
+  off_t const before = ::lseek(file_, 0, SEEK_END);
+  if (writeAll(file_, lines.data(), lines.size()))
+    return;
+  std::string const reason = std::strerror(errno);
+  bool const whole = before >= 0 && ::ftruncate(file_, before) == 0;
+  throw std::runtime_error("cannot append to '" + path_ + "': " + reason +
+                           (whole ? "" : "; its last line may be cut short"));
 }
 
 void appendValue(std::string &line, double value)

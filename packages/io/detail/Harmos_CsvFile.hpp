@@ -18,7 +18,8 @@ struct CsvStart
 };
 
 /// A comma-separated table that only ever grows by whole lines: each append is one write(2) to a file opened for
-/// appending, so that a run that is killed leaves no half row. The first column is the cycle.
+/// appending, so that a run that is killed leaves no half row; what a full disk takes of a row is taken back. The first
+/// column is the cycle.
 class CsvFile
 {
 public:
@@ -30,6 +31,7 @@ public:
   CsvFile &operator=(CsvFile const &) = delete;
 
   /// Append whole lines (each ended by a line end); they have reached the system when this returns.
+  /// \throws std::runtime_error with the file's name and the system's reason.
   void append(std::string const &lines);
 
 private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <detail/Harmos_AtomicFile.hpp>
 #include <detail/Harmos_Hdf5File.hpp>
 
 #include <stdexcept>
@@ -61,15 +62,29 @@ void silenceLibrary()
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-} // namespace
-
-Hdf5File::Hdf5File(std::string path, hid_t file, bool collective)
-    : path_(std::move(path)), file_(file), collective_(collective)
+/// What the library says of the call that has just failed, of its innermost function: the system's or MPI's reason.
+std::string innermostError()
 {
+  std::string text;
+  auto const keepFirst = [](unsigned, H5E_error2_t const *error, void *first) -> herr_t
+  {
+    auto &kept = *static_cast<std::string *>(first);
+    if (kept.empty() && error->desc)
+      kept = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keepFirst, &text);
+  return text.empty() ? "" : " (" + text + ")";
 }
 
-Hdf5File::Hdf5File(Hdf5File &&other) noexcept
-    : path_(std::move(other.path_)), file_(other.file_), collective_(other.collective_)
+/// Bytes by which the image of a file that one rank writes grows.
+constexpr std::size_t image_step = 1 << 20;
+
+} // namespace
+
+Hdf5File::Hdf5File(std::string path, hid_t file, Mode mode) : path_(std::move(path)), file_(file), mode_(mode) {}
+
+Hdf5File::Hdf5File(Hdf5File &&other) noexcept : path_(std::move(other.path_)), file_(other.file_), mode_(other.mode_)
 {
   other.file_ = -1;
 }
@@ -83,7 +98,7 @@ Hdf5File::~Hdf5File()
 void Hdf5File::check(bool good, std::string const &what) const
 {
   if (!good)
-    throw std::runtime_error("HDF5 file '" + path_ + "': cannot " + what);
+    throw std::runtime_error("HDF5 file '" + path_ + "': cannot " + what + innermostError());
 }
 
 Hdf5File Hdf5File::create(MPI_Comm comm, std::string const &path)
@@ -94,10 +109,12 @@ Hdf5File Hdf5File::create(MPI_Comm comm, std::string const &path)
   Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   if (size > 1)
     H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL);
+  else
+    H5Pset_fapl_core(access, image_step, false);
   hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (file < 0)
-    throw std::runtime_error("HDF5 file '" + path + "': cannot be created");
-  return Hdf5File(path, file, size > 1);
+    throw std::runtime_error("HDF5 file '" + path + "': cannot be created" + innermostError());
+  return Hdf5File(path, file, size > 1 ? Mode::Collective : Mode::Image);
 }
 
 Hdf5File Hdf5File::open(std::string const &path)
@@ -106,11 +123,23 @@ Hdf5File Hdf5File::open(std::string const &path)
   hid_t const file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0)
     throw std::runtime_error("HDF5 file '" + path + "': missing, damaged, cut short, or not an HDF5 file");
-  return Hdf5File(path, file, false);
+  return Hdf5File(path, file, Mode::Read);
+}
+
+void Hdf5File::writeImage() const
+{
+  // The driver allots whole steps: only the part that the file uses is written. Asked without room it tells the size.
+  void *image = nullptr;
+  bool const flushed = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
+  ssize_t const size = flushed ? H5Fget_file_image(file_, nullptr, 0) : -1;
+  check(size >= 0 && H5Fget_vfd_handle(file_, H5P_DEFAULT, &image) >= 0, "give its image");
+  writeFile(path_, *static_cast<char const *const *>(image), static_cast<std::size_t>(size));
 }
 
 void Hdf5File::close()
 {
+  if (file_ >= 0 && mode_ == Mode::Image)
+    writeImage();
   hid_t const file = file_;
   file_ = -1;
   check(file < 0 || H5Fclose(file) >= 0, "be closed");
@@ -146,7 +175,7 @@ void Hdf5File::write(std::string const &name, std::vector<T> const &value, int w
     selected = H5Sselect_none(file_space) >= 0 && H5Sselect_none(memory_space) >= 0;
   check(selected, "select rows of " + name);
   Handle const transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-  if (collective_)
+  if (mode_ == Mode::Collective)
     H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
   check(H5Dwrite(dataset, typeOf<T>(), memory_space, file_space, transfer, value.data()) >= 0, "write " + name);
 }
@@ -171,7 +200,7 @@ void Hdf5File::writeText(std::string const &name, std::string const &text)
   H5Pset_obj_track_times(untimed, false);
   Handle const dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, untimed, H5P_DEFAULT), H5Dclose);
   Handle const transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-  if (collective_)
+  if (mode_ == Mode::Collective)
     H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
   check(dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, transfer, text.c_str()) >= 0, "write " + name);
 }

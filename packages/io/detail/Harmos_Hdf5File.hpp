@@ -18,7 +18,9 @@ namespace Harmos
 class Hdf5File
 {
 public:
-  /// Create (or overwrite); collective. One rank uses the plain driver, more use MPI-IO.
+  /// Create (or overwrite); collective. More ranks than one use MPI-IO. One rank builds the file in memory, and close()
+  /// writes it: where the disk is full the library holds no file that it would try again to write when the program
+  /// ends.
   static Hdf5File create(MPI_Comm comm, std::string const &path);
   /// Open for reading by this process alone.
   static Hdf5File open(std::string const &path);
@@ -55,12 +57,19 @@ public:
   bool exists(std::string const &name) const;
 
 private:
-  Hdf5File(std::string path, hid_t file, bool collective);
+  enum class Mode
+  {
+    Read,
+    Collective,
+    Image
+  };
+  Hdf5File(std::string path, hid_t file, Mode mode);
+  void writeImage() const;
   void check(bool good, std::string const &what) const;
 
   std::string path_;
   hid_t file_ = -1;
-  bool collective_ = false;
+  Mode mode_ = Mode::Read;
 };
 
 } // namespace Harmos

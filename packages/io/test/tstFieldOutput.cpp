@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputScene.hpp"
+#include "SmallDisk.hpp"
 
 #include <Harmos_FieldOutput.hpp>
 #include <Harmos_History.hpp>
@@ -10,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 namespace
@@ -172,6 +175,27 @@ TEST(FieldOutput, restart_listsTheOldOutputsAndForgetsLaterOnes)
     EXPECT_NE(readWholeFile(folder + "/fields.pvd").find("timestep=\"0.17000000000000001\""), std::string::npos);
   }
   MPI_Barrier(MPI_COMM_WORLD);
+}
+
+TEST(Hdf5File, onAFullDisk_saysWhyAndLeavesNothingToTheEndOfTheProgram)
+{
+  if (rankOf() == 0)
+  {
+    std::string const path = folderOf("full") + ".h5";
+    auto const write = [&]
+    {
+      Hdf5File file = Hdf5File::create(MPI_COMM_SELF, path);
+      file.write("/value", std::vector<double>(10000, 1.0), 1, 0, 10000);
+      file.close();
+    };
+    std::string const error = errorOnSmallDisk(4096, write);
+    EXPECT_NE(error.find(path), std::string::npos) << error;
+    EXPECT_NE(error.find(std::strerror(EFBIG)), std::string::npos) << error;
+    // The library's exit handler would write an open file once more.
+    EXPECT_EQ(H5Fget_obj_count(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_FILE), 0);
+    write();
+    EXPECT_EQ(Hdf5File::open(path).read<double>("/value", 1, 9999, 1), std::vector<double>{1.0});
+  }
 }
 
 // Leaves the folder that the test of the plot script draws from.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "SmallDisk.hpp"
+
 #include <Harmos_ContactLog.hpp>
 #include <Harmos_History.hpp>
 #include <Harmos_Summary.hpp>
@@ -8,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -48,6 +52,17 @@ TEST(History, header_namesTheColumnsThatScriptsRelyOn)
             "iterations,residual,cu.mass,cu.volume,cu.momentum_x,cu.momentum_y,cu.kinetic_energy,cu.internal_energy,"
             "cu.x_min,cu.x_max,cu.y_min,cu.y_max,cu.plastic_strain_max,"
             "cu.failed_mass,returned_heat");
+}
+
+TEST(History, onAFullDisk_keepsWholeLinesAndSaysWhy)
+{
+  History history("full.csv", {"a", "b"}, true);
+  history.write(rowOf(1));
+  auto const before = readWholeFile("full.csv");
+  std::string const error = errorOnSmallDisk(before.size() + 40, [&] { history.write(rowOf(2)); });
+  EXPECT_NE(error.find("full.csv"), std::string::npos) << error;
+  EXPECT_NE(error.find(std::strerror(EFBIG)), std::string::npos) << error;
+  EXPECT_EQ(readWholeFile("full.csv"), before);
 }
 
 TEST(History, writtenDoubles_readBackWithTheSameBits)

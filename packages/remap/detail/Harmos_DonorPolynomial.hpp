@@ -5,6 +5,7 @@
 #include <detail/Harmos_Donors.hpp>
 
 #include <Harmos_AreaWeight.hpp>
+#include <detail/Harmos_LinearFit.hpp>
 #include <detail/Harmos_OverlayList.hpp>
 #include <detail/Harmos_RangeLimit.hpp>
 
@@ -13,17 +14,34 @@ namespace Harmos
 namespace RemapDetail
 {
 
+/// Corner velocities are fields of the cells, whatever part of a cell is filled: a linear one has its values at the
+/// cells' centres. So their polynomial is about the centre of the donor's moved cell, not about what that part's
+/// centroid makes of it, and the largest overlay takes the difference, which keeps the donor's momentum. What two
+/// cells exchange across a face then has the same velocity both ways, halfway between them, as in stage 1.
+struct CornerShift
+{
+  Vector2 offset; // of the mass centroid from the cell's centre
+  double mass;    // of the donor
+
+  /// To add to the integral of a part's mass times its distance from the mass centroid.
+  KOKKOS_INLINE_FUNCTION Vector2 moment(double part_mass, bool largest) const
+  {
+    return (largest ? part_mass - mass : part_mass) * offset;
+  }
+};
+
 /// Linear polynomials of a donor's fields: density and deviator about the centroid c, primitives about the mass
-/// centroid c + e.
+/// centroid c + e, corner velocities about the centre of its cell (CornerShift).
 struct DonorPolynomial
 {
   StageFields mean, x, y; // mean, gradient
   Vector2 mass_offset;    // e
+  CornerShift shift;
 };
 
 KOKKOS_INLINE_FUNCTION DonorPolynomial constantPolynomial(StageFields const &mean)
 {
-  return {mean, stageFields(0.0), stageFields(0.0), {0.0, 0.0}};
+  return {mean, stageFields(0.0), stageFields(0.0), {0.0, 0.0}, {{0.0, 0.0}, 0.0}};
 }
 
 /// Vertices relative to the donor's centroid.
@@ -96,7 +114,7 @@ struct PolynomialFinder
   }
 
   /// Integrals of the donor's fields over one overlay: density and deviator by volume, primitives phi as rho phi.
-  KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m)
+  KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m, bool largest)
   {
     LinearWeights const w =
         weights(p.mean.record[DensityField], {p.x.record[DensityField], p.y.record[DensityField]}, p.mass_offset, m);
@@ -104,8 +122,9 @@ struct PolynomialFinder
     out.record =
         p.mean.record * fieldWeights(w.volume, w.mass) + (p.x.record * fieldWeights(w.by_volume[0], w.by_mass[0]) +
                                                           p.y.record * fieldWeights(w.by_volume[1], w.by_mass[1]));
+    Vector2 const by_corner = w.by_mass + p.shift.moment(w.mass, largest);
     out.corner = p.mean.corner * FieldPack(w.mass) +
-                 (p.x.corner * FieldPack(w.by_mass[0]) + p.y.corner * FieldPack(w.by_mass[1]));
+                 (p.x.corner * FieldPack(by_corner[0]) + p.y.corner * FieldPack(by_corner[1]));
     return out;
   }
 
@@ -128,7 +147,13 @@ struct PolynomialFinder
     StageFields value; // corner velocities before stage 1, in the order of the donor's corners
     double filled;     // part of its cell before the move: that of the target cell would make the weights lopsided
     Vector2 centroid;
+    Vector2 centre; // of its cell
   };
+
+  KOKKOS_INLINE_FUNCTION Vector2 cellCentre(int donor) const
+  {
+    return {donors.shape(donor, 6), donors.shape(donor, 7)};
+  }
 
   KOKKOS_INLINE_FUNCTION bool fromDonor(int index, int material, int rotation, Neighbour &n) const
   {
@@ -137,6 +162,7 @@ struct PolynomialFinder
       return false;
     n.filled = in.state.record(donors.head(other).pair, VolumeFraction);
     n.centroid = {donors.shape(other, 1), donors.shape(other, 2)};
+    n.centre = cellCentre(other);
     n.value = {FieldPack(&donors.value(other, 0)), rotatedCorners(&donors.half(other, 0), rotation)};
     return true;
   }
@@ -148,7 +174,7 @@ struct PolynomialFinder
       return false;
     int const pair = in.pairs.offset(cell);
     n.filled = 1.0;
-    n.centroid = cellCentroid(in.mesh, cell);
+    n.centroid = n.centre = cellCentroid(in.mesh, cell);
     FieldPack record(&stage.record(pair, 0));
     record.set<DensityField>(stage.record(pair, Mass) / in.mesh.cell_volume(cell));
     record.set<KineticField>(stage.kineticEnergy(in.pairs, pair));
@@ -183,47 +209,57 @@ struct PolynomialFinder
     return index >= 0 ? fromDonor(index, material, rotation, n) : fromCell(cell, material, rotation, n);
   }
 
-  /// Least-squares gradient weighted by filled part over distance squared; along a line where all neighbours lie on
-  /// one. Widens the range by the neighbours' values.
-  KOKKOS_INLINE_FUNCTION void gradient(int cell, int material, Vector2 const &centroid, StageFields const &q,
-                                       Gradient &g, FaceNeighbours &beyond) const
+  /// Least-squares gradients over the same-material neighbours: of the corner velocities between the cells' centres, of
+  /// the others between the centroids. Widens the range by the neighbours' values.
+  KOKKOS_INLINE_FUNCTION void gradient(int cell, int donor, StageFields const &q, Gradient &g,
+                                       FaceNeighbours &beyond) const
   {
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-    StageFields bx = stageFields(0.0), by = stageFields(0.0);
+    LinearFit of_record, of_corner;
+    Vector2 const centroid{donors.shape(donor, 1), donors.shape(donor, 2)}, centre = cellCentre(donor);
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
     {
       Neighbour n;
-      if (!findNeighbour(j, material, n))
+      if (!findNeighbour(j, donors.head(donor).material, n))
         continue;
       Vector2 const d = n.centroid - centroid;
-      double const distance2 = dot(d, d);
-      if (!(distance2 > 0.0))
+      if (!(dot(d, d) > 0.0))
         continue;
-      double const w = n.filled / distance2;
-      xx += w * d[0] * d[0];
-      xy += w * d[0] * d[1];
-      yy += w * d[1] * d[1];
       StageFields const difference = n.value - q;
+      of_record.add(d, n.filled, difference.record);
+      of_corner.add(n.centre - centre, n.filled, difference.corner);
       if (in.options.limiter == RemapLimiter::VanLeer && isBeyondFace(cell, in.mesh.cell_neighbour.item(j)) &&
           beyond.size < 4)
       {
         beyond.offset[beyond.size] = d;
         beyond.difference[beyond.size++] = difference;
       }
-      addTimes(bx, w * d[0], difference);
-      addTimes(by, w * d[1], difference);
       g.lower = {lesser(g.lower.record, n.value.record), lesser(g.lower.corner, n.value.corner)};
       g.upper = {greater(g.upper.record, n.value.record), greater(g.upper.corner, n.value.corner)};
     }
-    double const trace = xx + yy;
-    double const det = xx * yy - xy * xy;
-    bool const line = det < 1e-6 * trace * trace;
-    double const scale = trace > 0.0 ? 1.0 / (line ? trace : det) : 0.0;
-    g.x = g.y = stageFields(0.0);
-    addTimes(g.x, scale * (line ? 1.0 : yy), bx);
-    addTimes(g.x, scale * (line ? 0.0 : -xy), by);
-    addTimes(g.y, scale * (line ? 1.0 : xx), by);
-    addTimes(g.y, scale * (line ? 0.0 : -xy), bx);
+    of_record.solve(g.x.record, g.y.record);
+    of_corner.solve(g.x.corner, g.y.corner);
+    shareRange(g.lower.corner, g.upper.corner);
+  }
+
+  /// The four corners of a cell may have each other's velocities: at the rim of a body, beyond which there is no cell
+  /// of it, a corner's own would not leave a linear field alone.
+  KOKKOS_INLINE_FUNCTION static void shareRange(FieldPack &lower, FieldPack &upper)
+  {
+    double low[8], high[8];
+    lower.store(low);
+    upper.store(high);
+    for (int d = 0; d < 2; ++d)
+    {
+      double const least = Math::min(Math::min(low[d], low[2 + d]), Math::min(low[4 + d], low[6 + d]));
+      double const most = Math::max(Math::max(high[d], high[2 + d]), Math::max(high[4 + d], high[6 + d]));
+      for (int k = 0; k < 4; ++k)
+      {
+        low[2 * k + d] = least;
+        high[2 * k + d] = most;
+      }
+    }
+    lower = FieldPack(low);
+    upper = FieldPack(high);
   }
 
   /// The largest part of gradients, at most all, that halfway to each neighbour keeps the values between theirs.
@@ -300,16 +336,19 @@ struct PolynomialFinder
 
   /// Limit the gradients of all fields but the density, which is rho + g.d with the mass centroid at e.
   KOKKOS_INLINE_FUNCTION static void limitToRange(OverlayList<OverlayMoments> const &overlays, StageFields const &q,
-                                                  Vector2 const &g, Vector2 const &e, Gradient &all)
+                                                  Vector2 const &g, Vector2 const &e, CornerShift const &shift,
+                                                  Gradient &all)
   {
     Deviations of_record, of_corner;
+    int const largest = overlays.largest();
     for (int o = 0; o < overlays.parts(); ++o)
     {
       LinearWeights const w = weights(q.record[DensityField], g, e, overlays.fieldMoments(o));
       double const per_volume = 1.0 / w.volume, per_mass = 1.0 / w.mass;
       Vector2 const v = per_volume * w.by_volume, m = per_mass * w.by_mass;
       of_record.add(all.x.record * fieldWeights(v[0], m[0]) + all.y.record * fieldWeights(v[1], m[1]));
-      of_corner.add(all.x.corner * FieldPack(m[0]) + all.y.corner * FieldPack(m[1]));
+      Vector2 const c = m + per_mass * shift.moment(w.mass, o == largest);
+      of_corner.add(all.x.corner * FieldPack(c[0]) + all.y.corner * FieldPack(c[1]));
     }
     limit(of_record, q.record, all.lower.record, all.upper.record, all.x.record, all.y.record);
     limit(of_corner, q.corner, all.lower.corner, all.upper.corner, all.x.corner, all.y.corner);
@@ -323,7 +362,7 @@ struct PolynomialFinder
     StageFields const before{q.record, FieldPack(&donors.half(donor, 0))};
     g.lower = {q.record, lesser(q.corner, before.corner)};
     g.upper = {q.record, greater(q.corner, before.corner)};
-    gradient(cell, donors.head(donor).material, {donors.shape(donor, 1), donors.shape(donor, 2)}, before, g, beyond);
+    gradient(cell, donor, before, g, beyond);
     return before;
   }
 
@@ -351,8 +390,10 @@ struct PolynomialFinder
     double const per_mass = 1.0 / (rho * volume);
     Vector2 const e{per_mass * (donors.shape(donor, 3) * slope[0] + donors.shape(donor, 4) * slope[1]),
                     per_mass * (donors.shape(donor, 4) * slope[0] + donors.shape(donor, 5) * slope[1])};
+    Vector2 const mass_centroid = Vector2{donors.shape(donor, 1), donors.shape(donor, 2)} + e;
+    result.shift = {mass_centroid - cellCentre(donor), rho * volume};
     if (to_range)
-      limitToRange(overlays, q, slope, e, g);
+      limitToRange(overlays, q, slope, e, result.shift, g);
     g.x.record.set<DensityField>(slope[0]);
     g.y.record.set<DensityField>(slope[1]);
     result.x = g.x;

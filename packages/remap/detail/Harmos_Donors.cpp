@@ -106,11 +106,18 @@ KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, Mov
     region[i] += shift;
 }
 
+KOKKOS_INLINE_FUNCTION void setCellCentre(Donors const &donors, int donor, Vector2 const &centre)
+{
+  donors.shape(donor, 6) = centre[0];
+  donors.shape(donor, 7) = centre[1];
+}
+
 KOKKOS_INLINE_FUNCTION void setShape(Donors const &donors, int donor, double volume, Vector2 const &centroid)
 {
   donors.shape(donor, 0) = volume;
   donors.shape(donor, 1) = centroid[0];
   donors.shape(donor, 2) = centroid[1];
+  setCellCentre(donors, donor, centroid);
   for (int i = 3; i < 6; ++i)
     donors.shape(donor, i) = 0.0;
 }
@@ -141,8 +148,11 @@ KOKKOS_INLINE_FUNCTION void setStillShape(Input const &in, Donors const &donors,
   if (in.pairs.cell_kind(cell) == PureCell)
     setShape(donors, donor, cell_volume, cellCentroid(in.mesh, cell));
   else
+  {
     setShape(donors, donor, in.state.record(pair, VolumeFraction) * cell_volume,
              in.carried(cell, {in.state.centroid(pair, 0), in.state.centroid(pair, 1)}));
+    setCellCentre(donors, donor, cellCentroid(in.mesh, cell));
+  }
 }
 
 struct MoveFunctor
@@ -175,6 +185,11 @@ struct MoveFunctor
         shiftRegion(in, cell, pair, c, region);
       bool const sound = setMovedShape(donors, donor, in.mesh.geometry, region, 1e-15 * in.mesh.cell_volume(cell));
       kind = sound ? MovingDonor : DegenerateDonor;
+      if (sound && in.pairs.cell_kind(cell) != PureCell)
+      {
+        Moments<1> const whole = moments<1>(c.x, c.x[0], areaWeight(in.mesh.geometry, c.x[0]));
+        setCellCentre(donors, donor, c.x[0] + whole.centroid());
+      }
     }
     if (kind != MovingDonor)
       setStillShape(in, donors, donor, pair);

@@ -47,8 +47,8 @@ struct Donors
   int num = 0;
   View<int *> offset; // num_interface + 1
   View<DonorHead *> head;
-  View<Region *> polygon;                                      // moved; moving donors
-  View<double *[6]> shape;                                     // volume, centroid, second moments xx, xy, yy about it
+  View<Region *> polygon;  // moved; moving donors
+  View<double *[8]> shape; // volume, centroid, second moments xx, xy, yy about it, centre of the moved cell
   View<double *[num_stage_fields]> value;                      // density and primitives, corner velocities
   View<double * [num_stage_fields - first_corner_field]> half; // corner velocities before stage 1
 

@@ -46,6 +46,14 @@ struct OverlayList
   /// Parts of the donor whose means are bounded: the overlays, and the rest where there is one.
   KOKKOS_INLINE_FUNCTION int parts() const { return has_rest ? size + 1 : size; }
 
+  KOKKOS_INLINE_FUNCTION int largest() const
+  {
+    int most = 0;
+    for (int o = 1; o < size; ++o)
+      most = value[o][0] > value[most][0] ? o : most;
+    return most;
+  }
+
   KOKKOS_INLINE_FUNCTION M moments(int part) const
   {
     M m;

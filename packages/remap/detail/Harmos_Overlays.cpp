@@ -120,10 +120,11 @@ struct IntersectFunctor : Finder
 
   /// Book an overlay in the acceptor's slot.
   /// \param fields The moments that the fields are integrated with.
+  /// \param largest Whether it is the donor's largest.
   KOKKOS_INLINE_FUNCTION void take(Donor &d, int slot, int acceptor, OverlayMoments const &m,
-                                   OverlayMoments const &fields) const
+                                   OverlayMoments const &fields, bool largest) const
   {
-    StageFields const part = Finder::integrate(d.polynomial, fields);
+    StageFields const part = Finder::integrate(d.polynomial, fields, largest);
     d.rest -= part;
     d.rest_volume -= m.volume();
     d.rest_first -= Vector2{m.first(0), m.first(1)};
@@ -161,7 +162,7 @@ struct IntersectFunctor : Finder
   {
     OverlayMoments m;
     m.value[0] = d.volume;
-    take(d, 0, d.cell, m, m);
+    take(d, 0, d.cell, m, m, true);
   }
 
   KOKKOS_INLINE_FUNCTION void addIfAny(List &list, int slot, int acceptor, OverlayMoments const &m) const
@@ -325,8 +326,9 @@ struct IntersectFunctor : Finder
       {
         d.polynomial = Finder::polynomial(number, cell, list);
         begin(d);
+        int const largest = list.largest();
         for (int o = 0; o < list.size; ++o)
-          take(d, list.slot[o], list.acceptor[o], list.moments(o), list.fieldMoments(o));
+          take(d, list.slot[o], list.acceptor[o], list.moments(o), list.fieldMoments(o), o == largest);
       }
     }
     else

@@ -72,8 +72,9 @@ struct QuadraticFinder : PolynomialFinder
     return momentsOfVertices<OverlayMoments>(v.size, v.x, v.y);
   }
 
-  /// Density and deviator by volume, the others by mass.
-  KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m)
+  /// Density and deviator by volume, the others by mass. The fit takes in that velocities belong to cells
+  /// (CornerShift): all overlays are alike.
+  KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m, bool)
   {
     double w[num_monomials];
     massMoments(p.c, m, w);

@@ -11,9 +11,11 @@ namespace RemapDetail
 namespace
 {
 
-/// What the faces take out of the cells of a block.
+/// What faces take out of the cells of a block: those through which any leaves, one after the other.
 struct Outflow
 {
+  int count;
+  double *face[4]; // its columns
   Pack volume[4];
   Pack x[4], y[4]; // swept centroids from the cell's; zero where nothing leaves
   Pack staying, moved_volume;
@@ -131,30 +133,30 @@ struct SweptFluxFunctor
                                                 Outflow const &out, Pack const (&weight)[4], Pack const &per_staying,
                                                 Pack (&deviation)[4])
   {
-    for (int k = 0; k < 4; ++k)
-      deviation[k] = out.x[k] * f.gradient_x + out.y[k] * f.gradient_y;
+    for (int i = 0; i < out.count; ++i)
+      deviation[i] = out.x[i] * f.gradient_x + out.y[i] * f.gradient_y;
     if constexpr (limiter == RemapLimiter::None)
       return Pack(1.0);
     else if constexpr (limiter == RemapLimiter::VanLeer)
       return vanLeerPart(f, beyond, p);
     else
     {
-      Pack const part = rangePart(f, weight, per_staying, deviation);
+      Pack const part = rangePart(f, out.count, weight, per_staying, deviation);
       return limiter == RemapLimiter::RangeInside ? Math::max(part, beyond.at_boundary) : part;
     }
   }
 
   /// The largest part of the deviations from the mean at the faces, at most all, that keeps those and the mean of what
   /// stays within range.
-  KOKKOS_FORCEINLINE_FUNCTION static Pack rangePart(Field const &f, Pack const (&weight)[4], Pack const &per_staying,
-                                                    Pack const (&deviation)[4])
+  KOKKOS_FORCEINLINE_FUNCTION static Pack rangePart(Field const &f, int count, Pack const (&weight)[4],
+                                                    Pack const &per_staying, Pack const (&deviation)[4])
   {
     Pack low = 0.0, high = 0.0, left = 0.0;
-    for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < count; ++i)
     {
-      low = Math::min(low, deviation[k]);
-      high = Math::max(high, deviation[k]);
-      left -= weight[k] * deviation[k];
+      low = Math::min(low, deviation[i]);
+      high = Math::max(high, deviation[i]);
+      left -= weight[i] * deviation[i];
     }
     left = left * per_staying;
     Pack const most = Math::max(high, left);
@@ -169,23 +171,23 @@ struct SweptFluxFunctor
     return select(rising, up_part, down_part) / select(rising, up_whole, down_whole);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION Outflow outflow(int first) const
+  KOKKOS_FORCEINLINE_FUNCTION Outflow outflow(int first, int block) const
   {
     Outflow out;
+    out.count = 0;
     out.moved_volume = out.staying = loadPack(stage.at(MovedVolume, first));
     for (int k = 0; k < 4; ++k)
     {
-      out.volume[k] = loadPack(stage.at(FaceColumn + num_face_columns * k, first));
-      out.x[k] = loadPack(stage.at(OffsetColumn + 2 * k, first));
-      out.y[k] = loadPack(stage.at(OffsetColumn + 2 * k + 1, first));
-      out.staying = out.staying - out.volume[k];
+      if ((block & LeaveBit << k) == 0)
+        continue;
+      int const i = out.count++;
+      out.face[i] = stage.at(FaceColumn + num_face_columns * k, first);
+      out.volume[i] = loadPack(out.face[i]);
+      out.x[i] = loadPack(stage.at(OffsetColumn + 2 * k, first));
+      out.y[i] = loadPack(stage.at(OffsetColumn + 2 * k + 1, first));
+      out.staying = out.staying - out.volume[i];
     }
     return out;
-  }
-
-  KOKKOS_FORCEINLINE_FUNCTION void storeFlux(int first, int k, int field, Pack const &flux) const
-  {
-    storePack(stage.at(FaceColumn + num_face_columns * k + 1 + field, first), flux);
   }
 
   /// The fluxes of a field that is weighted by what leaves, volume or mass.
@@ -198,8 +200,8 @@ struct SweptFluxFunctor
     for (int k = 0; k < 4; ++k)
       p[k] = columns.load(k, FieldColumn + field);
     Pack const part = limit(differentiate(directions, q, p), offset, p, out, weight, per_staying, deviation);
-    for (int k = 0; k < 4; ++k)
-      storeFlux(first, k, field, weight[k] * (q + part * deviation[k]));
+    for (int i = 0; i < out.count; ++i)
+      storePack(out.face[i] + (1 + field) * stage.stride, weight[i] * (q + part * deviation[i]));
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Beyond offsets(int first, Columns const &columns) const
@@ -226,18 +228,11 @@ struct SweptFluxFunctor
   {
     int const first = begin + number * pack_width;
     int const block = stage.blockOf(first);
-    if ((block & PureBlock) == 0)
+    if ((block & all_leave_bits) == 0)
       return;
-    if ((block & MovingBlock) == 0)
-    {
-      for (int k = 0; k < 4; ++k)
-        for (int field = 0; field < num_pair_fields; ++field)
-          storeFlux(first, k, field, 0.0);
-      return;
-    }
     GatheredColumns gathered[4];
     Columns const columns = columnsBeyond(first, block, gathered);
-    Outflow const out = outflow(first);
+    Outflow const out = outflow(first, block);
     Beyond const offset = offsets(first, columns);
     Directions const directions = invert(offset.x, offset.y);
 
@@ -252,11 +247,11 @@ struct SweptFluxFunctor
     Pack const part =
         limit(differentiate(directions, rho, density), offset, density, out, out.volume, per_volume, deviation);
     Pack staying_mass = out.moved_volume * rho;
-    for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < out.count; ++i)
     {
-      mass[k] = out.volume[k] * (rho + part * deviation[k]);
-      storeFlux(first, k, DensityField, mass[k]);
-      staying_mass -= mass[k];
+      mass[i] = out.volume[i] * (rho + part * deviation[i]);
+      storePack(out.face[i] + (1 + DensityField) * stage.stride, mass[i]);
+      staying_mass -= mass[i];
     }
     Pack const per_mass = 1.0 / staying_mass;
 

@@ -37,8 +37,9 @@ struct EdgePair
 };
 
 /// What the neighbours of a block's cells give: their faces' swept volumes and outgoing fluxes, column by column as in
-/// the window; zero where they do not count. Velocities one edge beyond the two nodes of each face; those nodes' own
-/// where the neighbour does not count: then the limited difference is zero.
+/// the window; zero where they do not count. Velocities one edge beyond the two nodes of each face, in a mixed
+/// neighbour too: its dof nodes go on beyond the rim of the body; those nodes' own where the material ends at the face:
+/// then the limited difference is zero.
 struct Neighbours
 {
   double const *face[4];
@@ -61,7 +62,7 @@ struct SweptGatherFunctor
     int first;
     int cell[pack_width], pair[pack_width];
     unsigned pure; // lanes
-    int runs;      // SweptBlock
+    int bits;      // SweptBlock
   };
 
   /// What the cells exchange with their neighbours.
@@ -89,6 +90,12 @@ struct SweptGatherFunctor
       double const *column = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
       for (int c = 0; c < num_face_columns; ++c, column += stage.stride)
         gathered[c][lane] = same ? *column : 0.0;
+      int const mixed = same || !stage.second_order ? -1 : mixedPairBeyond(cell, k);
+      if (mixed >= 0)
+      {
+        gatherMixed(mixed, stage.face_neighbour(cell, k), lane, gathered);
+        continue;
+      }
       bool const goes_beyond = same && stage.second_order;
       int const from = goes_beyond ? face >> 2 : cell;
       for (int i = 0; i < 2; ++i)
@@ -100,11 +107,36 @@ struct SweptGatherFunctor
     }
   }
 
-  /// Of the velocity beyond our node k + i of face k. Our node k is the neighbour's f + 1, beyond it f + 2; our k + 1
-  /// is its f, beyond it f + 3.
+  /// The pair of a pure cell's material in a mixed cell beyond a face; -1: none.
+  KOKKOS_INLINE_FUNCTION int mixedPairBeyond(int cell, int k) const
+  {
+    int const neighbour = stage.face_neighbour(cell, k) >> 2;
+    if (neighbour < 0)
+      return -1;
+    for (int pair = stage.first_pair[neighbour]; pair < stage.first_pair[neighbour + 1]; ++pair)
+      if (stage.pair_material[pair] == stage.pure_material[cell])
+        return pair;
+    return -1;
+  }
+
+  KOKKOS_INLINE_FUNCTION void gatherMixed(int pair, int face, int lane, GatheredFace &gathered) const
+  {
+    for (int i = 0; i < 2; ++i)
+    {
+      int const dof = stage.dof_node(pair, beyondCorner(face, i));
+      gathered[num_face_columns + 2 * i][lane] = stage.half(dof, 0);
+      gathered[num_face_columns + 2 * i + 1][lane] = stage.half(dof, 1);
+    }
+  }
+
+  /// Corner of the neighbour at its face f, beyond our node k + i of face k. Our node k is its f + 1, beyond it f + 2;
+  /// our k + 1 is its f, beyond it f + 3.
+  KOKKOS_FORCEINLINE_FUNCTION static int beyondCorner(int face, int i) { return (face + 2 + i) & 3; }
+
+  /// Of the velocity beyond our node k + i of face k, or of that node's own.
   KOKKOS_FORCEINLINE_FUNCTION static int velocityColumn(int face, int k, int i, bool goes_beyond)
   {
-    return CornerColumn + 2 * ((goes_beyond ? face + 2 + i : k + i) & 3);
+    return CornerColumn + 2 * (goes_beyond ? beyondCorner(face, i) : (k + i) & 3);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void findNeighbours(Block const &block, Neighbours &beyond,
@@ -114,7 +146,7 @@ struct SweptGatherFunctor
     {
       beyond.stride[k] = stage.stride;
       double const *velocity[2];
-      if ((block.runs & RunBit << k) != 0)
+      if ((block.bits & RunBit << k) != 0)
       {
         int const face = stage.face_neighbour(block.first, k);
         beyond.face[k] = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
@@ -143,20 +175,31 @@ struct SweptGatherFunctor
     Exchanged e;
     e.volume = own(block, MovedVolume);
     e.flow = 0.0;
+    int const carried = stage.carries() ? KineticField : KineticField + 1;
+    for (Pack &change : e.change)
+      change = 0.0;
     for (int k = 0; k < 4; ++k)
     {
+      e.outflow[k] = 0.0;
       int const face = FaceColumn + num_face_columns * k;
-      Pack const leaves = own(block, face), enters = beyond.load(k, 0);
-      e.flow += leaves + enters;
-      e.volume = e.volume - leaves + enters;
-      e.outflow[k] = own(block, face + 1 + DensityField) - beyond.load(k, 1 + DensityField);
-    }
-    for (int f = stage.carries() ? KineticField : KineticField + 1; f < num_pair_fields; ++f)
-    {
-      Pack change = 0.0;
-      for (int k = 0; k < 4; ++k)
-        change = change - own(block, FaceColumn + num_face_columns * k + 1 + f) + beyond.load(k, 1 + f);
-      e.change[f] = change;
+      if ((block.bits & LeaveBit << k) != 0)
+      {
+        Pack const leaves = own(block, face);
+        e.flow += leaves;
+        e.volume -= leaves;
+        e.outflow[k] = own(block, face + 1 + DensityField);
+        for (int f = carried; f < num_pair_fields; ++f)
+          e.change[f] -= own(block, face + 1 + f);
+      }
+      Pack const swept = beyond.load(k, 0);
+      auto const enters = swept > Pack(0.0);
+      if (!any(enters))
+        continue;
+      e.flow += swept;
+      e.volume += swept;
+      e.outflow[k] -= select(enters, beyond.load(k, 1 + DensityField), Pack(0.0));
+      for (int f = carried; f < num_pair_fields; ++f)
+        e.change[f] += select(enters, beyond.load(k, 1 + f), Pack(0.0));
     }
     return e;
   }
@@ -285,7 +328,7 @@ struct SweptGatherFunctor
     Block block;
     block.first = first;
     block.pure = 0u;
-    block.runs = stage.blockOf(first);
+    block.bits = stage.blockOf(first);
     int const count = Math::min(pack_width, end - first);
     int lead = -1;
     for (int lane = 0; lane < count; ++lane)

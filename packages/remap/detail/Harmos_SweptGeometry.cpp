@@ -182,9 +182,8 @@ struct SweptGeometryFunctor
       flags[lane] = stage.flags[cell[lane]];
       common &= flags[lane];
     }
-    bool const moving = compute(first, cell, pair, flags, common);
-    stage.blockOf(first) =
-        PureBlock | (moving ? MovingBlock : 0) | (lanes == all_lanes ? runsBeyond(first, common) : 0);
+    int const leaving = compute(first, cell, pair, flags, common);
+    stage.blockOf(first) = leaving | (lanes == all_lanes ? runsBeyond(first, common) : 0);
   }
 
   /// RunBit of the faces beyond which the neighbours are a run of cells on a run of rows.
@@ -234,9 +233,9 @@ struct SweptGeometryFunctor
     }
   }
 
-  /// \return Whether material leaves any of the cells.
-  KOKKOS_FORCEINLINE_FUNCTION bool compute(int first, int const cell[pack_width], int const pair[pack_width],
-                                           int const flags[pack_width], int common) const
+  /// \return LeaveBit of the faces.
+  KOKKOS_FORCEINLINE_FUNCTION int compute(int first, int const cell[pack_width], int const pair[pack_width],
+                                          int const flags[pack_width], int common) const
   {
     auto const store = [&](int column, Pack const &value) { storePack(stage.at(column, first), value); };
     PackedVector moved[4], middle[4], back[4];
@@ -272,7 +271,7 @@ struct SweptGeometryFunctor
     store(MovedVolume, whole.volume);
     storeFields(first, pair, whole.inverse);
 
-    Pack out = 0.0;
+    int leaving = 0;
     for (int k = 0; k < 4; ++k)
     {
       int const next = (k + 1) % 4;
@@ -290,9 +289,9 @@ struct SweptGeometryFunctor
       store(FaceColumn + num_face_columns * k, volume);
       store(OffsetColumn + 2 * k, select(leaves, c.x, Pack(0.0)));
       store(OffsetColumn + 2 * k + 1, select(leaves, c.y, Pack(0.0)));
-      out += volume;
+      leaving |= (any(leaves) ? LeaveBit : 0) << k;
     }
-    return any(out > Pack(0.0));
+    return leaving;
   }
 
   /// What is remapped, and the mass.

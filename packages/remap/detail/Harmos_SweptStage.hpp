@@ -30,9 +30,10 @@ enum SweptColumn : int
   OldMass = 11,
   NewMass = 12,
   CornerColumn = 13, // + 2 * corner: x, y of the velocity
-  FaceColumn = 21,   // + 9 * face: the volume that it sweeps out of the cell, >= 0 (the neighbour's is what
-                     // it sweeps into the cell); then the outgoing fluxes, + 1 + field
-  OffsetColumn = 57, // + 2 * face: x, y of the swept centroid from the cell's, zero where nothing leaves
+  // + 9 * face: the volume that it sweeps out of the cell, >= 0; the neighbour's is what it sweeps into the cell.
+  // + 1 + field: the outgoing fluxes, where any of the block leaves (LeaveBit).
+  FaceColumn = 21,
+  OffsetColumn = 57,              // + 2 * face: x, y of the swept centroid from the cell's, zero where nothing leaves
   IncrementColumn = OffsetColumn, // + 2 * corner: momentum gained by the corners, when the offsets have served
   num_swept_columns = 65
 };
@@ -42,9 +43,9 @@ constexpr int num_face_columns = 9;
 /// What stage 1 knows of a block of cells, pack_width of them, as bits.
 enum SweptBlock : int
 {
-  PureBlock = 1,   // holds a pure cell
-  MovingBlock = 2, // material leaves one of its cells
-  RunBit = 1 << 2  // << k: beyond face k lies a run of cells, all pure and of the material on this side
+  RunBit = 1,        // << k: beyond face k lies a run of cells, all pure and of the material on this side
+  LeaveBit = 1 << 4, // << k: material leaves one of the cells through face k
+  all_leave_bits = 15 * LeaveBit
 };
 
 /// What the kernels of stage 1 hand to one another, column by column, so that packs are loaded and stored whole. Cells

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Iterations of the multipliers' solver against their number: strips of 10 to 10,000 columns of cells.
+
+contact_iterations.py [--quick] [--output FOLDER]: writes contact-iterations.md.
+"""
+import argparse
+import pathlib
+from math import sqrt
+
+from harness import ROOT, clean, harmos
+
+COLUMNS = [10, 100, 1000, 10000]
+
+
+def iterations_of_strip(columns, friction, solver):
+    """Mean and largest iterations of 20 cycles: two blocks meet along an interface that crosses a strip of so many columns of cells
+    at a small slope, under one pressure, one of them sliding on the other. Multipliers; iterations; cycles that missed the tolerance."""
+    slope = 2.3 / columns
+    n = (-slope / sqrt(1.0 + slope * slope), 1.0 / sqrt(1.0 + slope * slope))
+    half = lambda sign: (f"{{material: metal, shape: half-plane, point: [{0.5 * columns!r}, 4.1], normal: [{-sign * n[0]!r}, {-sign * n[1]!r}], "
+                         f"pressure: 0.001, velocity: [{sign * 1e-3 * n[1]!r}, {-sign * 1e-3 * n[0]!r}]}}")
+    r = harmos(ROOT / "test/verification/decks/sliver.yaml", {
+        "mesh/x": f"{{from: 0.0, to: {float(columns)!r}, cells: {columns}}}", "mesh/y": "{from: 0.0, to: 8.0, cells: 8}",
+        "bodies/left": half(1.0), "bodies/right": half(-1.0), "run/max_cycles": 20, "output/history/every_cycles": 1,
+        "interactions": "{default: friction, coefficient: 0.2}" if friction else "{default: sliding}",
+        "numerics/constraint/solver": solver}, expect=None)
+    assert r.status == 0, r.text
+    found = {"multipliers": r.last("multipliers"), "mean": sum(r["iterations"][1:]) / len(r["iterations"][1:]), "most": max(r["iterations"]),
+             "missed": r.summary["unconverged_cycles"]}
+    clean(r)
+    return found
+
+
+def measure(columns, solver="projected newton"):
+    return [(friction, iterations_of_strip(n, friction, solver)) for friction in (False, True) for n in columns]
+
+
+def table(found):
+    lines = ["| | multipliers | mean iterations | most | cycles that missed 1e-8 |", "| --- " * 5 + "|"]
+    for friction, f in found:
+        lines.append(f"| {'friction 0.2' if friction else 'sliding'} | {f['multipliers']:.0f} | {f['mean']:.1f} | {f['most']:.0f} | {f['missed']} |")
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--output", default=str(ROOT / "results/contact_iterations"))
+    arguments = parser.parse_args()
+    folder = pathlib.Path(arguments.output)
+    folder.mkdir(parents=True, exist_ok=True)
+    text = table(measure(COLUMNS[:2] if arguments.quick else COLUMNS))
+    (folder / "contact-iterations.md").write_text(text)
+    print(text)
