@@ -171,6 +171,34 @@ private:
   std::map<std::pair<int, int>, int> node_; // (field, number in the file) -> ours
 };
 
+/// The mesh of the blocks; what is wrong with one or between some is told with the names of their bodies.
+BlockMesh namedBlocks(Deck const &deck, std::vector<MappedBlock> const &blocks, std::vector<int> const &body_of)
+{
+  std::string list;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    bool const wall = body_of[b] >= static_cast<int>(deck.bodies.size());
+    std::string const name = wall ? "a contact wall" : deck.bodies[body_of[b]].name;
+    list += (b == 0 ? "; blocks: " : ", ") + std::to_string(b) + " " + name;
+    try
+    {
+      mappedBlocks({blocks[b]});
+    }
+    catch (std::runtime_error const &error)
+    {
+      throw DeckError("bodies/" + name + ": " + error.what());
+    }
+  }
+  try
+  {
+    return mappedBlocks(blocks);
+  }
+  catch (std::runtime_error const &error)
+  {
+    throw DeckError("bodies: " + (error.what() + list));
+  }
+}
+
 /// The bodies' blocks and the rigid ones behind contact walls.
 DeckMesh makeBlocks(Deck const &deck)
 {
@@ -191,7 +219,7 @@ DeckMesh makeBlocks(Deck const &deck)
   }
   if (blocks.empty())
     return {};
-  BlockMesh const made = mappedBlocks(blocks);
+  BlockMesh const made = namedBlocks(deck, blocks, body_of);
   DeckMesh whole{made.mesh, made.cell_block};
   for (std::size_t c = 0; c < whole.mesh.cell.size(); ++c)
   {

@@ -17,6 +17,7 @@ struct Ledger
 {
   double energy0 = 0.0;
   double mass0 = 0.0;
+  double first_step = 0.0; // stable time step at the start, or run/max_dt or run/end_time where that is less [s]
   double momentum0_x = 0.0, momentum0_y = 0.0;
   double angular_momentum0 = 0.0; // about the origin [N s]
   double external_work = 0.0;

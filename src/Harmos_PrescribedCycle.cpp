@@ -143,8 +143,9 @@ CycleReport advancePrescribed(Scene const &scene, CycleState &s, PhaseTimes &tim
   moveTracers(pointField(scene, s), s.work.half, s.dt, false, exchange, s.tracers);
   {
     PhaseTimer timer("remap", times.remap);
-    RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
-                               scene.materials, s.work.half, s.dt, {}, scene.remap, report.remap, s.remap_work);
+    RemapResult result =
+        remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary, scene.materials,
+              s.work.half, s.dt, {}, scene.remap, report.remap, s.remap_work, {}, *scene.exchange);
     s.pairs = result.pairs;
     s.dof_nodes = result.dof_nodes;
     s.state = result.state;

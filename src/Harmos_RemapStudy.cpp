@@ -262,7 +262,7 @@ void stepByRemap(Study &s, RemapDeck const &deck, Exchange const &exchange, Stud
     report = {};
     // The material rests: dt = 0. Its velocity is one more field.
     result = remap(s.next, Kinematics::Xfem, s.pairs, s.dof_nodes, s.state, s.regions, s.conditions, s.materials,
-                   s.state.velocity, 0.0, {}, options, report, s.work, s.mesh.node_position);
+                   s.state.velocity, 0.0, {}, options, report, s.work, s.mesh.node_position, exchange);
     Kokkos::fence();
   };
   if (!s.work.kept)
@@ -306,7 +306,7 @@ void stepByFields(Study &s, RemapDeck const &deck, Exchange const &exchange, Stu
   int failures = 0;
   auto const once = [&]
   {
-    failures = remapFields(s.next, s.mesh.node_position, fields, remapped, options, s.field_work);
+    failures = remapFields(s.next, s.mesh.node_position, fields, remapped, options, s.field_work, exchange);
     Kokkos::fence();
   };
   if (!s.field_work.scratch)

@@ -6,6 +6,7 @@
 #include "Harmos_RunOutput.hpp"
 #include "Harmos_Setup.hpp"
 
+#include <array>
 #include <ctime>
 #include <memory>
 #include <stdexcept>
@@ -40,6 +41,7 @@ struct Run
   PhaseTimes times;
   double output_seconds = 0.0;
   std::vector<std::string> warnings;
+  std::vector<std::array<int, 2>> watched; // rigid bodies that nothing would keep from running into one another
   Kokkos::Timer timer;
   std::clock_t cpu_start = std::clock();
   long long first_cycle = 0;
@@ -50,6 +52,21 @@ struct Run
 
 /// The words of the lowest rank that has any, on all ranks; empty where none has. Collective.
 std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause);
+
+/// Where a cell and a material are: "cell 12 on rank 0, material copper"; what is negative is left out.
+std::string placeOf(Run const &run, int cell, int material);
+
+/// The cell in which an interface could not be placed, and why where it holds too many materials.
+std::string failedCell(Run const &run, ReconstructionReport const &report);
+
+/// Note the pairs of fixed and prescribed rigid bodies, one of them prescribed, that do not overlap.
+void watchRigidBodies(Run &run);
+
+/// A warning for each watched pair that has run into one another; it is watched no longer. Collective.
+void reportRigidOverlap(Run &run);
+
+/// Part of Ledger::first_step below which a run would crawl for ever.
+constexpr double smallest_step = 1e-10;
 
 /// A line on the terminal and in the summary; of the latter there are at most a hundred.
 void warn(Run &run, std::string const &text);

@@ -64,6 +64,15 @@ LedgerErrors ledgerErrors(Geometry geometry, Ledger const &l, Totals const &t)
   return e;
 }
 
+LedgerErrors noteErrors(Geometry geometry, Totals const &totals, Ledger &ledger)
+{
+  LedgerErrors const errors = ledgerErrors(geometry, ledger, totals);
+  ledger.noteErrors(errors.mass, errors.momentum, errors.energy, totals.kinetic_energy + totals.internal_energy,
+                    totals.speed_momentum);
+  ledger.noteAngularMomentum(totals.angular_momentum, totals.moment);
+  return errors;
+}
+
 namespace
 {
 
@@ -143,10 +152,7 @@ void RunOutput::write(Scene const &scene, CycleState const &state, CycleReport c
 void RunOutput::writeHistory(Scene const &scene, CycleState const &state, CycleReport const &report, Ledger &ledger)
 {
   Totals const totals = computeTotals(scene, state, static_cast<int>(names_.size()), true);
-  LedgerErrors const errors = ledgerErrors(scene.mesh.geometry, ledger, totals);
-  ledger.noteErrors(errors.mass, errors.momentum, errors.energy, totals.kinetic_energy + totals.internal_energy,
-                    totals.speed_momentum);
-  ledger.noteAngularMomentum(totals.angular_momentum, totals.moment);
+  LedgerErrors const errors = noteErrors(scene.mesh.geometry, totals, ledger);
 
   HistoryRow row;
   row.cycle = state.cycle;

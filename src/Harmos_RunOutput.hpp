@@ -104,6 +104,9 @@ struct LedgerErrors
 };
 LedgerErrors ledgerErrors(Geometry geometry, Ledger const &ledger, Totals const &totals);
 
+/// The same, and the ledger keeps the largest.
+LedgerErrors noteErrors(Geometry geometry, Totals const &totals, Ledger &ledger);
+
 } // namespace Harmos
 
 #endif

@@ -15,9 +15,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <unistd.h>
 
 namespace Harmos
@@ -222,6 +225,55 @@ void startLedger(Run &run)
       throw DeckError("bodies/" + run.deck.fields[m].name + ": nothing of it lies inside of the mesh");
 }
 
+/// A speed at which the squares of the cycle lose all digits. \throw DeckError on all ranks alike.
+void refuseAbsurdSpeeds(Run const &run)
+{
+  double const most = 299792458.0; // of light
+  CycleState const &s = run.state;
+  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.pairs.material);
+  auto const dof_node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.pairs.dof_node);
+  auto const velocity = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.state.velocity);
+  std::vector<std::string> const names = materialNames(run.deck);
+  char text[100];
+  std::string cause;
+  for (int pair = 0; cause.empty() && pair < s.pairs.num_pairs; ++pair)
+    for (int k = 0; k < 4; ++k)
+    {
+      double const speed = std::hypot(velocity(dof_node(pair, k), 0), velocity(dof_node(pair, k), 1));
+      std::snprintf(text, sizeof text, ": a speed of %.3g m/s; expected: at most that of light, %.0f", speed, most);
+      if (!(speed <= most))
+        cause = "bodies/" + names[material(pair)] + text;
+    }
+  char const *const side_name[] = {"left", "right", "bottom", "top"};
+  for (int side = 0; side < num_boundary_sides; ++side)
+  {
+    Vector2 const v = run.deck.boundary[side].velocity;
+    std::snprintf(text, sizeof text, ": a speed of %.3g m/s; expected: at most that of light, %.0f", norm(v), most);
+    if (!(norm(v) <= most))
+      cause = std::string("boundaries/") + side_name[side] + text;
+  }
+  cause = firstCause(*run.comm, cause);
+  if (!cause.empty())
+    throw DeckError(cause);
+}
+
+/// Steps with which the run would never get going. \throw DeckError on all ranks alike.
+void refuseTinySteps(Run &run)
+{
+  RunSpec const &given = run.deck.run;
+  double const stable = std::min(run.exchange->min(run.state.limit.dt), given.end_time);
+  run.ledger.first_step = std::min(stable, run.scene.max_dt);
+  std::pair<char const *, double> const keys[] = {{"max_dt", given.max_dt}, {"initial_dt", given.initial_dt}};
+  for (auto const &[key, value] : keys)
+  {
+    char text[140];
+    std::snprintf(text, sizeof text, "run/%s: %g s is too small; expected: more than %g of the stable step, %.3g s",
+                  key, value, smallest_step, stable);
+    if (value > 0.0 && !(value > smallest_step * stable))
+      throw DeckError(text);
+  }
+}
+
 /// A prescribed field that carries a body through a side of the mesh at once. \throw DeckError on all ranks alike.
 void refuseSideCrossing(Run const &run)
 {
@@ -277,6 +329,22 @@ std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause)
   return cause;
 }
 
+namespace
+{
+
+/// "mesh: 200 x 100 cells", or the cells of all blocks.
+std::string sizeOf(Deck const &deck)
+{
+  long long cells = 0;
+  for (BodySpec const &body : deck.bodies)
+    cells += static_cast<long long>(body.cells[0]) * body.cells[1];
+  if (deck.kinematics == Kinematics::Lagrangian)
+    return "bodies: " + std::to_string(cells) + " cells";
+  return "mesh: " + std::to_string(deck.x.cells) + " x " + std::to_string(deck.y.cells) + " cells";
+}
+
+} // namespace
+
 // What one rank alone meets (bodies that overlap in its cells) all ranks throw.
 void setUp(Run &run)
 {
@@ -289,6 +357,10 @@ void setUp(Run &run)
     part = "bodies: ";
     if (fresh)
       run.state = makeInitialState(run.deck, run.whole, run.scene);
+  }
+  catch (std::bad_alloc const &)
+  {
+    cause = sizeOf(run.deck) + ": the memory does not hold that many";
   }
   catch (std::exception const &error)
   {
@@ -310,12 +382,18 @@ void setUp(Run &run)
   }
   else
   {
+    refuseAbsurdSpeeds(run);
     setFirstTimeStep(run.deck, run.scene, run.state);
+    refuseTinySteps(run);
     refuseSideCrossing(run);
     startLedger(run);
   }
   ReconstructionReport reconstruction;
   reconstructState(run.scene, run.state, reconstruction);
+  cause = reconstruction.failures == 0 ? "" : "an interface could not be placed: " + failedCell(run, reconstruction);
+  cause = firstCause(*run.comm, cause);
+  if (!cause.empty())
+    throw DeckError(cause);
   if (fresh)
     placeTracers(run);
 }

@@ -86,20 +86,6 @@ std::string stretchedWithoutFailure(Run const &run, int material)
   return text;
 }
 
-std::string placeOf(Run const &run, int cell, int material)
-{
-  std::string place;
-  if (cell >= 0)
-  {
-    auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), run.scene.mesh.cell_global);
-    place = "cell " + std::to_string(global(cell)) + " on rank " + std::to_string(run.comm->getRank());
-  }
-  std::vector<std::string> const names = materialNames(run.deck);
-  if (material >= 0 && material < static_cast<int>(names.size()))
-    place += ", material " + names[material] + stretchedWithoutFailure(run, material);
-  return place;
-}
-
 /// All ranks throw when one has a cause; the lowest rank's words are used.
 void throwTogether(Run const &run, std::string const &cause)
 {
@@ -114,12 +100,10 @@ void failByTimeStep(Run const &run)
 {
   TimeStepLimit const &limit = run.state.limit;
   bool const mine = limit.cell >= 0 && limit.dt == run.exchange->min(limit.dt);
-  char text[80];
-  std::snprintf(text, sizeof text, "cycle %lld: the time step %.3e s is too small", run.state.cycle, run.state.dt);
-  bool const by_deck = run.state.dt >= run.scene.max_dt;
-  throwTogether(run, by_deck ? std::string(text) + ": set by run/max_dt"
-                     : mine  ? std::string(text) + ": set by " + placeOf(run, limit.cell, limit.material)
-                             : "");
+  char text[120];
+  std::snprintf(text, sizeof text, "cycle %lld: the time step %.3e s is too small, beside %.3e s at the start",
+                run.state.cycle, run.state.dt, run.ledger.first_step);
+  throwTogether(run, mine ? std::string(text) + ": set by " + placeOf(run, limit.cell, limit.material) : "");
   throw RunFailure(text);
 }
 
@@ -140,12 +124,11 @@ void checkCycle(Run const &run, CycleReport const &report)
                                                     : "the overlays of a donor do not add up to it: ") +
             placeOf(run, report.remap.first_failed_cell, report.remap.first_failed_material);
   else if (report.reconstruction.failures > 0)
-    cause = "an interface could not be placed: " +
-            placeOf(run, report.reconstruction.first_failed_cell, report.reconstruction.first_failed_material);
+    cause = "an interface could not be placed: " + failedCell(run, report.reconstruction);
   if (!cause.empty())
     cause = "cycle " + std::to_string(run.state.cycle) + ": " + cause;
   throwTogether(run, cause);
-  if (!(run.state.dt > 1e-10 * run.deck.run.end_time))
+  if (!(run.state.dt > smallest_step * run.ledger.first_step))
     failByTimeStep(run);
 }
 
@@ -189,6 +172,13 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.deck_json = run.deck.json;
   if (run.comm->getRank() == 0)
     writeSummary(run.options.directory + "/summary.json", s);
+}
+
+/// The errors of the present state, where the history has no row of it too.
+void noteErrors(Run &run)
+{
+  Totals const totals = computeTotals(run.scene, run.state, static_cast<int>(run.deck.fields.size()), false);
+  noteErrors(run.scene.mesh.geometry, totals, run.ledger);
 }
 
 bool finished(Run const &run)
@@ -270,6 +260,7 @@ ExitStatus loop(Run &run, RunOutput &output)
   if (run.options.restart.empty())
     output.write(run.scene, run.state, report, run.ledger, 0.0, false);
   double const cells = static_cast<double>(run.whole.mesh.cell.size());
+  watchRigidBodies(run);
   while (!finished(run))
   {
     shortenLastStep(run);
@@ -279,6 +270,7 @@ ExitStatus loop(Run &run, RunOutput &output)
     checkCycle(run, report);
     reportConvergence(run, report);
     reportRange(run, report, out_of_range);
+    reportRigidOverlap(run);
     run.ledger.cell_steps += cells;
     long long pairs[1] = {run.state.pairs.num_pairs};
     if (run.exchange->size() > 1)
@@ -305,6 +297,34 @@ ExitStatus loop(Run &run, RunOutput &output)
 
 } // namespace
 
+std::string placeOf(Run const &run, int cell, int material)
+{
+  std::string place;
+  if (cell >= 0)
+  {
+    auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), run.scene.mesh.cell_global);
+    place = "cell " + std::to_string(global(cell)) + " on rank " + std::to_string(run.comm->getRank());
+  }
+  std::vector<std::string> const names = materialNames(run.deck);
+  if (material >= 0 && material < static_cast<int>(names.size()))
+    place += ", material " + names[material] + stretchedWithoutFailure(run, material);
+  return place;
+}
+
+std::string failedCell(Run const &run, ReconstructionReport const &report)
+{
+  int const cell = report.first_failed_cell;
+  std::string const place = placeOf(run, cell, report.first_failed_material);
+  if (cell < 0)
+    return place;
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), run.state.pairs.offset);
+  int const materials = offset(cell + 1) - offset(cell);
+  if (materials < max_components)
+    return place;
+  return place + "; " + std::to_string(materials) + " materials meet in it, and at most " +
+         std::to_string(max_components) + " can, void among them";
+}
+
 void checkScene(Deck const &deck, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
 {
   RunOptions const options;
@@ -323,6 +343,7 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
   try
   {
     ExitStatus const status = loop(run, output);
+    noteErrors(run);
     run.progress.finish();
     writeRunSummary(run, status == Completed ? "completed" : "interrupted");
     return status;

@@ -315,7 +315,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   {
     PhaseTimer timer("lagrange", times.lagrange);
     prepareWork(s.pairs, s.dof_nodes, work);
-    computeCornerForces(mesh, s.pairs, s.state, scene.materials, scene.lagrange, work);
+    LagrangeOptions options = scene.lagrange;
+    options.energy_lag = 0.5 * s.dt; // of the step that lies behind, which the one ahead stands for
+    computeCornerForces(mesh, s.pairs, s.state, scene.materials, options, work);
     if (scene.kinematics == Kinematics::Lagrangian)
       addSubzonalForces(mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
                         scene.lagrange.subzonal_pressure, work);
@@ -395,8 +397,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       PhaseTimer timer("remap", times.remap);
       View<double *[2]> const start = moveToTarget(scene, s, dt);
       RigidRows const &rigid = rigidRows(scene, s);
-      RemapResult result = remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
-                                 scene.materials, work.half, dt, rigid, scene.remap, report.remap, s.remap_work, start);
+      RemapResult result =
+          remap(mesh, scene.kinematics, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary, scene.materials,
+                work.half, dt, rigid, scene.remap, report.remap, s.remap_work, start, *scene.exchange);
       s.pairs = result.pairs;
       s.dof_nodes = result.dof_nodes;
       s.state = result.state;

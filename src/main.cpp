@@ -43,8 +43,27 @@ struct Arguments
   std::string command;
   std::string deck;
   std::vector<std::string> overrides;
+  std::vector<std::string> options; // those given
   Harmos::RunOptions run;
 };
+
+/// An option that a command would ignore is refused.
+void checkOptions(Arguments const &arguments)
+{
+  std::vector<std::string> allowed;
+  if (arguments.command == "run")
+    allowed = {"--output", "--set", "--restart", "--force"};
+  else if (arguments.command == "remap")
+    allowed = {"--output", "--set", "--force"};
+  else if (arguments.command == "check")
+    allowed = {"--set"};
+  else if (arguments.command != "schema")
+    return; // no command at all
+  for (std::string const &option : arguments.options)
+    if (std::find(allowed.begin(), allowed.end(), option) == allowed.end())
+      throw Harmos::DeckError("'harmos " + arguments.command + "' takes no " + option +
+                              "; allowed: " + (allowed.empty() ? "no option" : Harmos::joined(allowed)));
+}
 
 Arguments parseArguments(int argc, char **argv)
 {
@@ -58,6 +77,8 @@ Arguments parseArguments(int argc, char **argv)
   for (int i = 1; i < argc; ++i)
   {
     std::string const word = argv[i];
+    if (word == "--output" || word == "--set" || word == "--restart" || word == "--force")
+      arguments.options.push_back(word);
     if (word == "--output")
       arguments.run.directory = value(i);
     else if (word == "--set")
@@ -78,6 +99,7 @@ Arguments parseArguments(int argc, char **argv)
     else
       throw Harmos::DeckError("one deck at a time: '" + word + "' is too many");
   }
+  checkOptions(arguments);
   bool const takes_deck = arguments.command == "run" || arguments.command == "check" || arguments.command == "remap";
   if (takes_deck && arguments.deck.empty())
     throw Harmos::DeckError("'harmos " + arguments.command + "' needs a deck");

@@ -81,7 +81,7 @@ def draw(results, finest, planar, picture):
             axis.plot(chosen, [measure(folder(results, name, cells))[quantity] for cells in chosen], SERIES[name][3], ms=4,
                       lw=1.1, label=name)
         axis.set(title=title, xlabel="cells over the radius", xscale="log")
-        ticks = meshes("xfem, second order", finest)
+        ticks = meshes("xfem, first order", finest)
         axis.set_xticks(ticks, [str(tick) for tick in ticks])
         axis.minorticks_off()
     axes[2].legend(fontsize=7)

@@ -66,7 +66,8 @@ void convertMotion(DeckChecker const &check, ParameterList const &list, std::str
                 "a half-plane has no finite mass; expected: fixed or prescribed");
   check.require(body.radial_velocity == 0.0, keyPath(path, "radial_velocity"), "means nothing for a rigid body");
   for (char const *key : {"density", "internal_energy", "pressure"})
-    check.require(!list.isParameter(key), keyPath(path, key), "means nothing for a rigid body, whose law has the density");
+    check.require(!list.isParameter(key), keyPath(path, key),
+                  "means nothing for a rigid body, whose law has the density");
 }
 
 /// Quadrilateral sides along the axes of the body's frame as arcs, and the cells' grading.
@@ -87,7 +88,19 @@ void convertBlockSides(DeckChecker const &check, ParameterList const &list, std:
     body.arc_radius[k] = radii[k];
 }
 
-/// Convex blocks of four corners only; default cells from the mean size of the mesh's.
+/// As fine as the mesh in the mean.
+void setBlockCells(Deck const &deck, std::vector<Vector2> const &corners, BodySpec &body)
+{
+  double const size[2] = {(deck.x.to - deck.x.from) / deck.x.cells, (deck.y.to - deck.y.from) / deck.y.cells};
+  for (int d = 0; d < 2; ++d)
+  {
+    Vector2 const a = corners[d + 1] - corners[d], b = corners[(d + 3) % 4] - corners[d + 2];
+    double const length = 0.5 * (std::hypot(a[0], a[1]) + std::hypot(b[0], b[1]));
+    body.cells[d] = static_cast<int>(std::max(1L, std::lround(length / size[d])));
+  }
+}
+
+/// Convex blocks of four corners only.
 void convertBlock(DeckChecker const &check, ParameterList const &list, std::string const &path, Deck const &deck,
                   BodySpec &body)
 {
@@ -97,6 +110,8 @@ void convertBlock(DeckChecker const &check, ParameterList const &list, std::stri
     for (int d = 0; d < 2; ++d)
     {
       check.require(cells[d] == std::floor(cells[d]), keyPath(path, "cells"), "expected: two integers");
+      check.require(cells[0] * cells[1] <= most_cells, keyPath(path, "cells"),
+                    "more cells than 32-bit face numbers reach; expected: at most " + std::to_string(most_cells));
       body.cells[d] = static_cast<int>(cells[d]);
     }
   }
@@ -115,15 +130,11 @@ void convertBlock(DeckChecker const &check, ParameterList const &list, std::stri
     check.require(cross(corners[(k + 1) % 4] - corners[k], corners[(k + 2) % 4] - corners[k]) > 0.0,
                   keyPath(path, "points"), "a lagrangian block must be convex");
   check.require(!body.cut, keyPath(path, "cut"), "kinematics lagrangian cannot cut blocks");
-  if (list.isParameter("cells"))
-    return;
-  double const size[2] = {(deck.x.to - deck.x.from) / deck.x.cells, (deck.y.to - deck.y.from) / deck.y.cells};
+  if (!list.isParameter("cells"))
+    setBlockCells(deck, corners, body);
   for (int d = 0; d < 2; ++d)
-  {
-    Vector2 const a = corners[d + 1] - corners[d], b = corners[(d + 3) % 4] - corners[d + 2];
-    double const length = 0.5 * (std::hypot(a[0], a[1]) + std::hypot(b[0], b[1]));
-    body.cells[d] = static_cast<int>(std::max(1L, std::lround(length / size[d])));
-  }
+    check.require(AxisSpec{0.0, 1.0, body.cells[d], body.cells_grading[d]}.smallestCell() > 1e-12,
+                  keyPath(path, "cells_grading"), numberText(body.cells_grading[d]) + " makes cells of no size");
 }
 
 void assignField(DeckChecker const &check, ParameterList const &list, std::string const &path, Deck &deck,
@@ -181,6 +192,16 @@ double energyAtPressure(Material law, double specific_volume, double pressure)
   return energy;
 }
 
+/// Words of decks and of contact.csv.
+void checkName(DeckChecker const &check, std::string const &name, Deck const &deck)
+{
+  std::vector<std::string> taken = {"void", "wall", "contact_wall"};
+  if (deck.kinematics == Kinematics::Lagrangian)
+    taken.insert(taken.end(), {"wall_left", "wall_right", "wall_bottom", "wall_top"});
+  check.require(std::find(taken.begin(), taken.end(), name) == taken.end(), "bodies/" + name,
+                "this name has a meaning of its own; taken are " + joined(taken));
+}
+
 } // namespace
 
 InitialState initialState(DeckChecker const &check, ParameterList const &list, LawSpec const &law,
@@ -232,7 +253,7 @@ void convertBodies(DeckChecker const &check, ParameterList const &bodies, Deck &
     BodySpec body;
     body.name = bodies.name(i);
     std::string const path = "bodies/" + body.name;
-    check.require(body.name != "void" && body.name != "wall", path, "this name has a meaning of its own");
+    checkName(check, body.name, deck);
     ParameterList const &list = bodies.sublist(body.name);
     body.law = requireIndex(check, deck.laws, list.get<std::string>("material"), keyPath(path, "material"), "material");
     body.shape = shapeOf(check, list, path);

@@ -5,6 +5,7 @@
 #include <Harmos_Deck.hpp>
 #include <Harmos_DeckSchema.hpp>
 
+#include <limits>
 #include <string>
 
 /// Parts of convertDeck: from a complete list to plain values, with the checks that need several keys.
@@ -13,6 +14,9 @@ namespace Harmos
 {
 
 constexpr char const *side_name[num_boundary_sides] = {"left", "right", "bottom", "top"};
+
+/// Faces are numbered 4 * cell + k in 32 bits.
+constexpr long long most_cells = std::numeric_limits<int>::max() / 4;
 
 /// Throws DeckError "file: path: message".
 class DeckChecker

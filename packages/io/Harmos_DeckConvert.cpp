@@ -444,12 +444,17 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
                 "the mesh of kinematics lagrangian is the material's; expected: follow and relax 0");
   check.require(deck.jitter == 0.0 || deck.kinematics != Kinematics::Lagrangian, "mesh/jitter",
                 "the blocks of kinematics lagrangian have none; expected: 0");
-  // Faces are numbered 4 * cell + k in 32 bits.
-  check.require(static_cast<long long>(deck.x.cells) * deck.y.cells <= std::numeric_limits<int>::max() / 4, "mesh",
-                "more cells than 32-bit face numbers reach");
+  check.require(static_cast<long long>(deck.x.cells) * deck.y.cells <= most_cells, "mesh",
+                "more cells than 32-bit face numbers reach; expected: at most " + std::to_string(most_cells));
   convertLaws(check, complete.sublist("materials"), deck);
   check.require(!deck.laws.empty(), "materials", "none; expected: at least one");
   convertBodies(check, complete.sublist("bodies"), deck);
+  long long block_cells = 0;
+  for (BodySpec const &body : deck.bodies)
+    block_cells += static_cast<long long>(body.cells[0]) * body.cells[1];
+  check.require(block_cells <= most_cells, "bodies",
+                std::to_string(block_cells) + " cells in all, more than 32-bit face numbers reach; expected: at most " +
+                    std::to_string(most_cells));
   convertBoundaries(check, complete.sublist("boundaries"), deck);
   convertInteractions(check, complete.sublist("interactions"), deck);
   convertNumerics(check, complete.sublist("numerics"), deck);
@@ -461,8 +466,15 @@ Deck convertDeck(ParameterList const &complete, std::string const &file)
   check.require(deck.output.xdmf || !deck.output.vtu, "output/vtu",
                 "true without output/xdmf: a restart finds the times of the .vtu files in the HDF5 files; expected: "
                 "output/xdmf: true");
+  Cadence const &fields = deck.output.fields;
+  check.require(deck.output.xdmf ||
+                    !(fields.every_cycles > 0 || fields.every_time > 0.0 || fields.every_wall_seconds > 0.0),
+                "output/fields", "every_... without output/xdmf writes nothing; expected: 0, or output/xdmf: true");
   deck.probes = pointsOf(check, complete.sublist("probes"), "probes", deck);
   deck.tracers = pointsOf(check, complete.sublist("tracers"), "tracers", deck);
+  for (BodySpec const &body : deck.bodies)
+    check.require(deck.tracers.empty() || body.name != "outside", "bodies/" + body.name,
+                  "in tracers.csv this name means that a tracer has left the mesh; expected: another one");
   deck.constraint.speed_scale = speedScale(deck);
   deck.yaml = deckAsYaml(complete);
   deck.json = deckAsJson(complete);

@@ -24,16 +24,24 @@ char const *const root_name = "harmos";
 /// The text of a file. \throws DeckError
 using TextReader = std::function<std::string(std::string const &)>;
 
-/// Teuchos' parser refuses other than ASCII even in comments, and a last line without its end.
-std::string forParser(std::string const &text)
+/// Teuchos' parser refuses other than ASCII even in comments, the mark that begins some UTF-8 files, and a last line
+/// without its end. Outside of comments such bytes are refused here: its message would hold them as they are.
+std::string forParser(std::string const &text, std::string const &file)
 {
-  std::string result = text;
+  std::string result = text.rfind("\xEF\xBB\xBF", 0) == 0 ? text.substr(3) : text;
   bool comment = false;
+  int line = 1;
   for (char &c : result)
   {
     comment = c != '\n' && (comment || c == '#');
-    if (comment && static_cast<unsigned char>(c) > 126)
-      c = '?';
+    line += c == '\n' ? 1 : 0;
+    int const code = static_cast<unsigned char>(c);
+    if ((code >= 32 && code <= 126) || c == '\n' || c == '\r' || c == '\t')
+      continue;
+    if (!comment)
+      throw DeckError(file + ": line " + std::to_string(line) + " holds the byte " + std::to_string(code) +
+                      "; expected: ASCII text, but in comments");
+    c = '?';
   }
   if (result.empty() || result.back() != '\n')
     result += '\n';
@@ -99,7 +107,7 @@ void refuseOutermostKeys(std::string const &text, std::string const &file)
 
 ParameterList parseYaml(std::string const &text, std::string const &file)
 {
-  std::string const input = forParser(text);
+  std::string const input = forParser(text, file);
   refuseOutermostKeys(input, file);
   if (input.find_first_not_of(" \t\r\n") == std::string::npos)
     throw DeckError(file + ": empty; expected: a map under the outermost key " + root_name);
@@ -125,6 +133,11 @@ void applyOverride(ParameterList &deck, std::string const &text)
   std::string const prefix = "--set " + text;
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     throw DeckError(prefix + ": expected: path/to/key=value");
+  if (text.find('#') != std::string::npos)
+    throw DeckError(prefix + ": a # would begin a comment; expected: none");
+  std::string const key = '/' + text.substr(0, equals) + '/';
+  if (key.find("//") != std::string::npos)
+    throw DeckError(prefix + ": a part of the path is empty; expected: path/to/key=value");
   ParameterList value = parseYaml(std::string(root_name) + ":\n  value: " + text.substr(equals + 1) + "\n", prefix);
   ParameterList *list = &deck;
   std::istringstream path(text.substr(0, equals));

@@ -27,6 +27,7 @@ struct LagrangeOptions
   double courant = 0.5;
   double largest_travel = 0.45; // dt |v| over the smallest altitude of the cells around
   double light_node = 1e-3;     // dof nodes lighter than this part of a full one do not set the time step
+  double energy_lag = 0.0;      // [s] of internal energies behind specific volumes; the cycle sets it to half a step
 };
 
 /// Work arrays of one Lagrangian step. Their extents may exceed the numbers of pairs and dof nodes (prepareWork).
@@ -127,12 +128,15 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
 
 /// Corner forces of all deformable pairs (on the nodes) -> work.corner_force; rigid pairs: zero.
 ///
-/// f_I = - m sv (s - (p + q) 1) B_I + hourglass, B_I the mean-quadrature gradient of the whole cell at x^n.
+/// f_I = - m sv (s - (p* + q) 1) B_I + hourglass, B_I the mean-quadrature gradient of the whole cell at x^n.
 /// Axisymmetric (x = r, y = z, per radian): V B_I = integral of r grad N_I dA, and the hoop stress acts on the integral
 /// of N_I dA in addition (detail/Harmos_RingQuadrature.hpp): f_I . v_I sums to - m sv sigma : D, tr D = V'/V.
 /// Viscosity in compression (theta = tr D < 0, at v^{n-1/2}): q = rho (c1 c L |theta| + c2 L^2 theta^2), L^2 the cell's
-/// area, c the longitudinal sound speed. Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C = kappa m c / (4 L),
-/// gamma_I = Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1): orthogonal to linear fields.
+/// area, c the longitudinal sound speed. p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2), theta of either sign: work
+/// with v_mean leaves the internal energy half a step behind the specific volume, and a pressure that lags drives waves
+/// (doc/theory/lagrange.md).
+/// Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C = kappa m c / (4 L), gamma_I = Gamma_I - (sum_J Gamma_J x_J) .
+/// B_I, Gamma = (1, -1, 1, -1): orthogonal to linear fields.
 /// Flanagan & Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann & Richtmyer, J. Appl. Phys. 21
 /// (1950) 232; Landshoff, LA-1930 (1955).
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Lagrange.hpp>
 
-#include <detail/Harmos_JoinReducer.hpp>
+#include <Harmos_JoinReducer.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -229,7 +229,7 @@ Crossing largestCrossing(SlowLight const &slow)
         if (slow.mesh.node_owned(node))
           largest.owned = Math::max(largest.owned, squared);
       },
-      detail::JoinReducer<Crossing>(result));
+      JoinReducer<Crossing>(result));
   return result;
 }
 
@@ -281,7 +281,7 @@ SlowSums slowMarked(SlowLight const &slow, View<double *[2]> const &initial, Lag
         if (!slowed)
           sums.wall_impulse += mass * (change - wanted);
       },
-      detail::JoinReducer<SlowSums>(result));
+      JoinReducer<SlowSums>(result));
   Kokkos::deep_copy(work.half, changed);
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Lagrange.hpp>
 
-#include <detail/Harmos_JoinReducer.hpp>
+#include <Harmos_JoinReducer.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ KineticSums kineticSums(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, Vi
         sums.angular_momentum += mass * cross(x, v);
         sums.kinetic_energy += 0.5 * mass * dot(v, v);
       },
-      detail::JoinReducer<Kinetic>(result));
+      JoinReducer<Kinetic>(result));
   return result;
 }
 

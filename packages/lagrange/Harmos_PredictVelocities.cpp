@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Lagrange.hpp>
 
+#include <Harmos_JoinReducer.hpp>
 #include <Harmos_LoadPoints.hpp>
 #include <Harmos_RowPointer.hpp>
-#include <detail/Harmos_JoinReducer.hpp>
 
 namespace Harmos
 {
@@ -286,7 +286,7 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
                                dof_nodes.num_dof_nodes};
   Sums result;
   Kokkos::parallel_reduce("Harmos::lagrange::predictVelocities", RangePolicy(0, numPacks(dof_nodes.num_dof_nodes)),
-                          predict, detail::JoinReducer<Sums>(result));
+                          predict, JoinReducer<Sums>(result));
   return result;
 }
 

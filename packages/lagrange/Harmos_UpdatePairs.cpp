@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Lagrange.hpp>
 
-#include <detail/Harmos_JoinReducer.hpp>
+#include <Harmos_JoinReducer.hpp>
+#include <detail/Harmos_LargestRate.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 #include <limits>
@@ -196,7 +197,7 @@ UpdateSums launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState co
                                        mesh.num_owned_cells == mesh.num_cells};
   UpdateSums result;
   Kokkos::parallel_reduce("Harmos::lagrange::updatePairs", RangePolicy(0, numPacks(pairs.num_pairs)), update,
-                          detail::JoinReducer<UpdateSums>(result));
+                          JoinReducer<UpdateSums>(result));
   return result;
 }
 
@@ -276,7 +277,7 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
         double const acoustic = detail::acousticRate(material, options, geometry, eos, sv, e);
         largest.include(detail::pairRate(pairs, dof_mass, limits, pair, v, geometry, acoustic, sv), pair);
       },
-      detail::JoinReducer<detail::LargestRate>(result));
+      JoinReducer<detail::LargestRate>(result));
   return limitFrom(result, pairs);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Remap.hpp>
 
+#include <detail/Harmos_FieldRanges.hpp>
 #include <detail/Harmos_Kept.hpp>
 #include <detail/Harmos_Rebuild.hpp>
 
@@ -209,7 +210,7 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
                   NodeMaterialPairs const &dof_nodes, PairState const &state, FilledRegions const &regions,
                   BoundaryConditions const &conditions, View<Material *> const &materials,
                   View<double *[2]> const &half, double dt, RigidRows const &rigid, RemapOptions const &options,
-                  RemapReport &report, RemapWork &work, View<double *[2]> const &start)
+                  RemapReport &report, RemapWork &work, View<double *[2]> const &start, Exchange const &exchange)
 {
   if (options.order < 1 || options.order > 3)
     throw std::runtime_error("remap: order " + std::to_string(options.order) + " is none of 1, 2, 3");
@@ -238,7 +239,8 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
            options,
            {},
            retargeted ? start : mesh.node_position,
-           retargeted};
+           retargeted,
+           {}};
   if (retargeted)
     checkBoundaryNodes(in);
   Classes const &classes = keepClasses(in, kept);
@@ -248,6 +250,7 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     boxCells(mesh, kept.links);
   kept.boxed = kept.boxed || classes.num_interface > 0;
   in.links = kept.links;
+  in.ranges = fieldRanges(in, classes, exchange);
   SweptSums sums;
   StageState const stage = sweepPureCells(in, classes, kept, sums);
   sums.kinetic_before += otherKineticEnergy(in, classes);

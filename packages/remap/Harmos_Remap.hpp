@@ -4,6 +4,7 @@
 
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_Exchange.hpp>
 #include <Harmos_FilledRegions.hpp>
 #include <Harmos_Material.hpp>
 
@@ -16,7 +17,7 @@ namespace Harmos
 enum class RemapLimiter : int
 {
   Range = 0,       // no value that is remapped leaves the range of the donor and its neighbours
-  RangeInside = 1, // the same but in cells at the mesh's boundary, where gradients are not limited
+  RangeInside = 1, // in cells at the mesh's boundary: of all pure cells of the material; elsewhere the same
   VanLeer = 2,     // halfway to each neighbour beyond a face, between the two values; overshoots in two dimensions
   None = 3
 };
@@ -104,6 +105,7 @@ struct RemapWork
 ///                    (regions and centroids belong to it, rigid rows to `mesh`); extent 0: it began on `mesh`. Moved
 ///                    nodes (start + dt half) stay within the cells around their node of `mesh`; boundary nodes may
 ///                    slide along straight slip or fixed walls, others stay. Throws where one does not.
+/// \param exchange    Between the ranks: RangeInside needs the fields' ranges on all of them.
 /// \return Pairs, dof nodes and state of time n+1, right on owned cells and on the nodes around them where the input is
 ///         right to depth 7 (5 without merging; doc/decisions/0003). Where no cell changes its set of materials, rows
 ///         and dof nodes are shared with the input.
@@ -121,7 +123,8 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
                   NodeMaterialPairs const &dof_nodes, PairState const &state, FilledRegions const &regions,
                   BoundaryConditions const &conditions, View<Material *> const &materials,
                   View<double *[2]> const &half, double dt, RigidRows const &rigid, RemapOptions const &options,
-                  RemapReport &report, RemapWork &work, View<double *[2]> const &start = {});
+                  RemapReport &report, RemapWork &work, View<double *[2]> const &start = {},
+                  Exchange const &exchange = {});
 
 /// The largest part of its moved volume that a pure cell gives away through its faces: their swept
 /// volumes out of it over it. Above 1 (nodes that move along the cells' diagonals by more than half of them) swept

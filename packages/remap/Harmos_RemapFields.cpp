@@ -2,6 +2,7 @@
 #include <Harmos_RemapFields.hpp>
 
 #include <detail/Harmos_FieldOverlays.hpp>
+#include <detail/Harmos_FieldRanges.hpp>
 
 #include <stdexcept>
 
@@ -26,6 +27,38 @@ void checkOptions(Mesh const &mesh, CellFields const &fields, CellFields const &
     throw std::runtime_error("remapFields: the new averages need an array of their own, of the same shape");
 }
 
+/// Least and largest value of every field, over the owned cells of all ranks.
+View<double *[2]> rangesOf(Mesh const &mesh, CellFields const &fields, Exchange const &exchange)
+{
+  int const count = static_cast<int>(fields.value.extent(1));
+  std::vector<double> bounds;
+  for (int f = 0; f < count; ++f)
+  {
+    double least = 0.0, largest = 0.0;
+    auto const value = fields.value;
+    Kokkos::parallel_reduce(
+        "Harmos::remapFields::range", RangePolicy(0, mesh.num_cells),
+        KOKKOS_LAMBDA(int cell, double &low, double &high) {
+          if (mesh.cell_depth(cell) != 0)
+            return;
+          low = Math::min(low, value(cell, f));
+          high = Math::max(high, value(cell, f));
+        },
+        Kokkos::Min<double>(least), Kokkos::Max<double>(largest));
+    bounds.insert(bounds.end(), {least, -largest});
+  }
+  joinBounds(exchange, bounds.data(), 2 * count);
+  View<double *[2]> const range("Harmos::remapFields::range", count);
+  auto const host = Kokkos::create_mirror_view(range);
+  for (int f = 0; f < count; ++f)
+  {
+    host(f, 0) = bounds[static_cast<std::size_t>(2 * f)];
+    host(f, 1) = -bounds[static_cast<std::size_t>(2 * f + 1)];
+  }
+  Kokkos::deep_copy(range, host);
+  return range;
+}
+
 } // namespace
 
 /// Arrays, and the links of a mesh's connectivity.
@@ -39,7 +72,7 @@ struct FieldScratch
 };
 
 int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields const &fields, CellFields const &remapped,
-                RemapOptions const &options, FieldWork &work)
+                RemapOptions const &options, FieldWork &work, Exchange const &exchange)
 {
   checkOptions(mesh, fields, remapped, options);
   ScopedRegion const region("Harmos::remapFields");
@@ -68,6 +101,8 @@ int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields con
   stage.corner = kept.corner;
   stage.shape = kept.shape;
   stage.overlay = kept.overlay;
+  if (options.limiter == RemapLimiter::RangeInside && options.order == 2)
+    stage.range = rangesOf(mesh, fields, exchange);
   return intersectFields(stage);
 }
 

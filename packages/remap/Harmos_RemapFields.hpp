@@ -24,19 +24,20 @@ struct FieldWork
 ///
 /// Second order: least-squares gradients over the vertex neighbours, weighted by one over distance squared. With
 /// RemapLimiter::Range the means of what each acceptor gets stay within the range of the donor and its neighbours, and
-/// so do the new averages; RangeInside leaves the cells at the mesh's boundary alone.
+/// so do the new averages; RangeInside takes the range of the whole field in cells at the mesh's boundary.
 ///
 /// \param mesh    The target, planar, with convex cells. Runs over all local cells.
 /// \param start   Node positions of the mesh that the fields are on [length].
 /// \param fields, remapped  Averages over the cells of that mesh, and of the target: other arrays of the same shape.
 /// \param options order 1 or 2; limiter Range, RangeInside or None.
+/// \param exchange Between the ranks: RangeInside needs the fields' ranges on all of them.
 /// \return Owned cells that do not get their volume to 1e-10: nodes moved out of the cells around them.
 /// \throw std::runtime_error Axisymmetric meshes, other orders and limiters.
 ///
 /// Right on cells of depth d where the input is right to depth d + 2. Source: Dukowicz & Kodis, SIAM J. Sci. Stat.
 /// Comput. 8 (1987) 305-321.
 int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields const &fields, CellFields const &remapped,
-                RemapOptions const &options, FieldWork &work);
+                RemapOptions const &options, FieldWork &work, Exchange const &exchange = {});
 
 } // namespace Harmos
 

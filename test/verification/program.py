@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the program answers: messages, exit status, what it writes and what it leaves alone."""
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -126,19 +127,118 @@ def test_an_inverted_cell_stops_the_run_and_keeps_the_last_checkpoint():
     clean(r)
 
 
-def test_a_time_step_that_is_too_small_names_its_pair_on_any_rank():
-    lines = []
+def test_a_healthy_time_step_is_good_at_any_end_time():
+    r = harmos(BALL, {"run/end_time": 1e6, **SHORT})
+    assert r.summary["cycles"] == 3 and not r.summary["warnings"], r.summary
+    clean(r)
+
+
+SQUEEZE = """harmos:
+  kinematics: lagrangian
+  mesh: {x: {from: 0.0, to: 1.0, cells: 1}, y: {from: 0.0, to: 1.0, cells: 1}}
+  boundaries: {left: {type: prescribed, normal_velocity: -100.0}}
+  materials: {soft: {eos: stiffened, density: 1000.0, sound_speed: 10.0}}
+  bodies: {block: {material: soft, shape: rectangle, center: [0.5, 0.5], size: [1.0, 1.0]}}
+  numerics: {courant: 0.9, linear_viscosity: 0.0, quadratic_viscosity: 0.0}
+  run: {end_time: 1.0, initial_dt: 1.0e-3, max_cycles: 20}
+  output: {checkpoint: {at_end: true}}
+"""
+
+
+def test_a_time_step_that_shrinks_without_bound_names_its_pair_also_after_a_restart():
+    """A piston closes on a wall at 100 m/s: the one cell between them, and so the step, goes to nothing at 10 ms."""
+    with tempfile.TemporaryDirectory() as scratch:
+        deck = pathlib.Path(scratch) / "squeeze.yaml"
+        deck.write_text(SQUEEZE)
+        half = harmos(deck)
+        whole = harmos(deck, {"run/max_cycles": 0}, expect=3)
+        again = harmos(deck, {"run/max_cycles": 0}, extra=["--restart", str(newest_checkpoint(half.directory))], expect=3)
+        pattern = r"cycle (\d+): the time step (\S+) s is too small, beside 9.000e-02 s at the start: set by cell 0 on rank 0, material block"
+        found = [re.search(pattern, r.text) for r in (whole, again)]
+        assert all(found), (whole.text, again.text)
+        assert found[0].groups() == found[1].groups() and float(found[0].group(2)) < 9e-12
+        check("time left to the end", abs(whole.last("time") / 0.01 - 1.0), 1e-6)
+        print("  " + found[0].group(0))
+        clean(half, whole, again)
+
+
+def test_steps_and_speeds_that_cannot_work_are_refused():
+    refused(["run/initial_dt: 1e-16", "1e-10 of the stable step"], "run/initial_dt=1e-16")
+    refused(["run/max_dt: 1e-16", "1e-10 of the stable step"], "run/max_dt=1e-16")
     for ranks in (1, 3):
-        r = harmos(BALL, {"run/end_time": 1e6}, ranks=ranks, expect=3)
-        said = [text for text in r.text.splitlines() if text.startswith("harmos:")]
-        assert len(said) == 1, r.text
-        lines.append(said[0])
+        refused(["bodies/ball: a speed of 1e+200 m/s", "light"], "bodies/ball/velocity=[1e200, 0.0]", ranks=ranks)
+    refused(["bodies/plate: a speed of", "light"], "bodies/plate/radial_velocity=100.0", "bodies/plate/radial_exponent=-10.0", "bodies/plate/radial_radius=0.3")
+
+
+PIE = """harmos:
+  mesh: {{x: {{from: -1.0, to: 1.0, cells: 5}}, y: {{from: -1.0, to: 1.0, cells: 5}}}}
+  materials: {{m: {{eos: stiffened, density: 1000.0, sound_speed: 1000.0}}}}
+  run: {{end_time: 1.0e-3, max_cycles: 2}}
+  bodies:
+{bodies}"""
+
+
+def test_more_materials_than_a_cell_can_hold_are_counted():
+    with tempfile.TemporaryDirectory() as scratch:
+        deck = pathlib.Path(scratch) / "pie.yaml"
+        point = lambda i, n: f"{0.9 * math.cos(2 * math.pi * i / n):.15f}, {0.9 * math.sin(2 * math.pi * i / n):.15f}"
+        for sectors in (12, 16):
+            bodies = [f"    s{i}: {{material: m, shape: polygon, points: [0.0, 0.0, {point(i, sectors)}, {point(i + 1, sectors)}]}}\n"
+                      for i in range(sectors)]
+            deck.write_text(PIE.format(bodies="".join(bodies)))
+            if sectors == 16:
+                refused(["cell 12", "16 materials meet in it, and at most 12 can"], deck=deck)
+            else:
+                assert program("check", deck).returncode == 0
+
+
+def test_a_mesh_that_no_memory_holds_has_its_size_in_the_message():
+    command = f"ulimit -v 4000000; exec {harness.HARMOS} check {BALL} --set mesh/x/cells=23000 --set mesh/y/cells=23000"
+    r = subprocess.run(["bash", "-c", command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert r.returncode == 2 and "mesh: 23000 x 23000 cells: the memory does not hold that many" in r.stderr, r.stderr
+
+
+def test_blocks_are_named_and_too_large_ones_refused():
+    two = ["kinematics=lagrangian", "bodies/lower/cells=[4, 4]"]
+    refused(["bodies/lower/cells", "536870911"], "kinematics=lagrangian", "bodies/lower/cells=[1000000, 1000000]", deck=BLOCKS)
+    refused(["bodies/lower/cells_grading", "no size"], *two, "bodies/lower/cells_grading=[1e30, 1.0]", deck=BLOCKS)
+    refused(["bodies/lower", "arc of radius"], *two, "bodies/lower/arc_radii=[0.01, 0.0, 0.0, 0.0]", deck=BLOCKS)
+
+
+def test_driven_rigid_bodies_that_run_into_one_another_are_told_once():
+    driven = {
+        "bodies/ball/motion": "prescribed", "bodies/ball/velocity": "[2000.0, 0.0]", "bodies/ball/angular_velocity": "0.0",
+        "bodies/post": "{material: hard, shape: rectangle, center: [0.9, 0.5], size: [0.04, 0.9]}", "run/end_time": 4e-5,
+        "bodies/plate/center": "[1.4, 0.5]",
+    }
+    lines = []
+    for ranks in (1, 2):
+        r = harmos(BALL, driven, ranks=ranks)
+        lines += [w for w in r.summary["warnings"] if "run into one another" in w]
         clean(r)
-    pattern = r"the time step (\S+e-06) s is too small: set by (cell \d+) on rank \d, (material plate)"
-    found = [re.search(pattern, line) for line in lines]
-    assert all(found), lines
-    assert found[0].groups() == found[1].groups(), lines
-    print("  " + lines[1])
+    # The rim of the ball, at x = 0.86 m, reaches the post, at 0.88 m, after 10 us.
+    found = [re.match(r"cycle (\d+): the rigid bodies ball and post run into", line) for line in lines]
+    assert len(lines) == 2 and all(found) and lines[0] == lines[1], lines
+    early = harmos(BALL, {**driven, "run/end_time": 9.9e-6})
+    assert not early.summary["warnings"], early.summary["warnings"]
+    clean(early)
+
+
+def test_options_that_a_command_would_ignore_are_refused():
+    for arguments in (("check", BALL, "--restart", "none.h5"), ("check", BALL, "--output", "x"), ("schema", "--force")):
+        r = program(*arguments)
+        assert r.returncode == 2 and f"takes no {arguments[-2] if len(arguments) > 3 else '--force'}" in r.stderr, r.stderr
+
+
+def test_errors_are_measured_at_the_end_where_the_history_has_no_row():
+    longer = {"run/max_cycles": 40, "bodies/ball/velocity": "[2000.0, 0.0]"}
+    with_rows = harmos(BALL, {**longer, "output/history/every_cycles": 40})
+    without = harmos(BALL, {**longer, "output/history/every_cycles": 0, "output/history/at_end": "false"})
+    assert len(without["cycle"]) == 0
+    for key in ("mass_error", "momentum_error", "energy_error"):
+        assert without.summary[key] == with_rows.summary[key], key
+    assert without.summary["energy_error"] > 0.0
+    clean(with_rows, without)
 
 
 def test_summary_and_switches_of_the_output():

@@ -63,7 +63,7 @@ PEER = {
 }
 AGAINST = ["swept", "swept, third", "intersection", "field intersection", "intersection, range inside", "third", "third, range inside", "swept, not limited", "intersection, not limited", "third, not limited"]
 SUMMARY = """Limited, second order where nothing is said. `range` bounds what is remapped, the means over overlays or swept areas, and keeps all values within those of the donors. On the random meshes, where boundary cells become thinner at random, half of them give away what lies on the side that they know: their gradients vanish, since the sine is steepest at
-the boundary and no value may leave the donors' range. `range inside` leaves those cells alone, as the peer does, and comes close to no limiter at all; but a shock that meets the boundary leaves the range by up to 0.08 there. The cycle sweeps wherever all is pure."""
+the boundary and no value may leave the range of the donors around. `range inside` takes the range of the whole field in those cells alone: it has the errors of the peer, which does not limit them, and keeps all values within the range of the start as `range` does. The cycle sweeps wherever all is pure."""
 INTRODUCTION = """# The remap alone
 
 One field remapped over moving meshes of the unit square by `harmos remap` (scene `example/remap`), without mechanics. Written by `test/verification/remap_study.py`; the quick part of it is `test/verification/remap.py`.

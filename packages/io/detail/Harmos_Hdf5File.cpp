@@ -82,9 +82,13 @@ constexpr std::size_t image_step = 1 << 20;
 
 } // namespace
 
-Hdf5File::Hdf5File(std::string path, hid_t file, Mode mode) : path_(std::move(path)), file_(file), mode_(mode) {}
+Hdf5File::Hdf5File(std::string path, hid_t file, Mode mode, MPI_Comm comm)
+    : path_(std::move(path)), file_(file), mode_(mode), comm_(comm)
+{
+}
 
-Hdf5File::Hdf5File(Hdf5File &&other) noexcept : path_(std::move(other.path_)), file_(other.file_), mode_(other.mode_)
+Hdf5File::Hdf5File(Hdf5File &&other) noexcept
+    : path_(std::move(other.path_)), file_(other.file_), mode_(other.mode_), comm_(other.comm_)
 {
   other.file_ = -1;
 }
@@ -95,10 +99,25 @@ Hdf5File::~Hdf5File()
     H5Fclose(file_);
 }
 
-void Hdf5File::check(bool good, std::string const &what) const
+void Hdf5File::checkHere(bool good, std::string const &what) const
 {
   if (!good)
     throw std::runtime_error("HDF5 file '" + path_ + "': cannot " + what + innermostError());
+}
+
+void Hdf5File::check(bool good, std::string const &what)
+{
+  if (mode_ == Mode::Collective)
+  {
+    int const mine = good ? 1 : 0;
+    int all = 0;
+    MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, comm_);
+    if (all == 0)
+      file_ = -1; // to close it would write, and wait, again
+    if (good && all == 0)
+      throw std::runtime_error("HDF5 file '" + path_ + "': another rank cannot " + what);
+  }
+  checkHere(good, what);
 }
 
 Hdf5File Hdf5File::create(MPI_Comm comm, std::string const &path)
@@ -114,7 +133,7 @@ Hdf5File Hdf5File::create(MPI_Comm comm, std::string const &path)
   hid_t const file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (file < 0)
     throw std::runtime_error("HDF5 file '" + path + "': cannot be created" + innermostError());
-  return Hdf5File(path, file, size > 1 ? Mode::Collective : Mode::Image);
+  return Hdf5File(path, file, size > 1 ? Mode::Collective : Mode::Image, comm);
 }
 
 Hdf5File Hdf5File::open(std::string const &path)
@@ -123,10 +142,10 @@ Hdf5File Hdf5File::open(std::string const &path)
   hid_t const file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0)
     throw std::runtime_error("HDF5 file '" + path + "': missing, damaged, cut short, or not an HDF5 file");
-  return Hdf5File(path, file, Mode::Read);
+  return Hdf5File(path, file, Mode::Read, MPI_COMM_SELF);
 }
 
-void Hdf5File::writeImage() const
+void Hdf5File::writeImage()
 {
   // The driver allots whole steps: only the part that the file uses is written. Asked without room it tells the size.
   void *image = nullptr;
@@ -212,19 +231,19 @@ std::vector<T> Hdf5File::read(std::string const &name, int width, long long firs
   if (count == 0)
     return value;
   Handle const dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  check(dataset >= 0, "find " + name);
+  checkHere(dataset >= 0, "find " + name);
   Handle const file_space(H5Dget_space(dataset), H5Sclose);
   int const rank = width == 1 ? 1 : 2;
   hsize_t shape[2] = {0, 1};
-  check(H5Sget_simple_extent_ndims(file_space) == rank, "read " + name + ": it has another shape");
+  checkHere(H5Sget_simple_extent_ndims(file_space) == rank, "read " + name + ": it has another shape");
   H5Sget_simple_extent_dims(file_space, shape, nullptr);
-  check(shape[1] == static_cast<hsize_t>(width) && static_cast<hsize_t>(first + count) <= shape[0],
-        "read " + name + ": it is too short or has another width");
+  checkHere(shape[1] == static_cast<hsize_t>(width) && static_cast<hsize_t>(first + count) <= shape[0],
+            "read " + name + ": it is too short or has another width");
   hsize_t const start[2] = {static_cast<hsize_t>(first), 0};
   hsize_t const extent[2] = {static_cast<hsize_t>(count), static_cast<hsize_t>(width)};
   H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start, nullptr, extent, nullptr);
   Handle const memory_space(H5Screate_simple(rank, extent, nullptr), H5Sclose);
-  check(H5Dread(dataset, typeOf<T>(), memory_space, file_space, H5P_DEFAULT, value.data()) >= 0, "read " + name);
+  checkHere(H5Dread(dataset, typeOf<T>(), memory_space, file_space, H5P_DEFAULT, value.data()) >= 0, "read " + name);
   return value;
 }
 
@@ -233,18 +252,19 @@ T Hdf5File::readAttribute(std::string const &object, std::string const &name) co
 {
   T value{};
   Handle const attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  check(attribute >= 0 && H5Aread(attribute, typeOf<T>(), &value) >= 0, "read attribute " + object + ":" + name);
+  checkHere(attribute >= 0 && H5Aread(attribute, typeOf<T>(), &value) >= 0, "read attribute " + object + ":" + name);
   return value;
 }
 
 std::string Hdf5File::readText(std::string const &name) const
 {
   Handle const dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  check(dataset >= 0, "find " + name);
+  checkHere(dataset >= 0, "find " + name);
   Handle const type(H5Dget_type(dataset), H5Tclose);
-  check(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0, "read " + name + ": it is no fixed text");
+  checkHere(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0,
+            "read " + name + ": it is no fixed text");
   std::vector<char> text(H5Tget_size(type) + 1, '\0');
-  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0, "read " + name);
+  checkHere(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0, "read " + name);
   return text.data();
 }
 
@@ -258,11 +278,11 @@ long long Hdf5File::rows(std::string const &name) const
   if (!exists(name))
     return 0;
   Handle const dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  check(dataset >= 0, "find " + name);
+  checkHere(dataset >= 0, "find " + name);
   Handle const space(H5Dget_space(dataset), H5Sclose);
   hsize_t shape[2] = {0, 0};
   int const rank = H5Sget_simple_extent_ndims(space);
-  check(rank == 1 || rank == 2, "read " + name + ": it has another shape");
+  checkHere(rank == 1 || rank == 2, "read " + name + ": it has another shape");
   H5Sget_simple_extent_dims(space, shape, nullptr);
   return static_cast<long long>(shape[0]);
 }

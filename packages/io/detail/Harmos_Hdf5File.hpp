@@ -63,13 +63,16 @@ private:
     Collective,
     Image
   };
-  Hdf5File(std::string path, hid_t file, Mode mode);
-  void writeImage() const;
-  void check(bool good, std::string const &what) const;
+  Hdf5File(std::string path, hid_t file, Mode mode, MPI_Comm comm);
+  void writeImage();
+  /// Collective where the file is written by several ranks: all throw when one has failed, none waits for it.
+  void check(bool good, std::string const &what);
+  void checkHere(bool good, std::string const &what) const;
 
   std::string path_;
   hid_t file_ = -1;
   Mode mode_ = Mode::Read;
+  MPI_Comm comm_ = MPI_COMM_SELF;
 };
 
 } // namespace Harmos

@@ -212,6 +212,13 @@ TEST(DeckErrors, Lagrangian_takesConvexBlocksWithoutInflow)
   EXPECT_HAS(messageOfText(block, {"boundaries/left={type: inflow, body: a, velocity: [1, 0]}"}), "has no inflow");
   EXPECT_HAS(messageOfText(block, {"bodies/a/cut=true"}), "cannot cut blocks");
   EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[1, 2.5]"}), "bodies/a/cells: expected: two integers");
+  EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[1000000, 1000000]"}), "bodies/a/cells: more cells than 32-bit");
+  EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[20000, 20000]",
+                                   "bodies/b={material: m, shape: rectangle, center: [2, 0.5], size: [1, 1], "
+                                   "cells: [20000, 20000]}"}),
+             "bodies: 800000000 cells in all, more than 32-bit face numbers reach; expected: at most 536870911");
+  EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[40, 1]", "bodies/a/cells_grading=[1e20, 1]"}),
+             "bodies/a/cells_grading: 1e+20 makes cells of no size");
   EXPECT_HAS(messageOfText(head + "    a: {material: m, shape: disc, center: [1, 0.5], radius: 1}\n"),
              "bodies/a/shape: kinematics lagrangian meshes blocks");
   EXPECT_HAS(messageOfText(head + "    a: {material: m, shape: polygon, points: [0,0, 1,0, 0.2,0.2, 0,1]}\n"),
@@ -226,6 +233,9 @@ TEST(DeckErrors, Yaml_isOneLineWithThePlace)
              "line 2: { } and [ ] must open and close on one line");
   EXPECT_HAS(messageOfText("harmos:\n  a: 1\n  a: 2\n"), "\"a\" already exists");
   EXPECT_HAS(messageOfText("harmos:\n  a: 1\n\tb: 2\n"), "line 3");
+  EXPECT_EQ(messageOfText("harmos:\n  title: \xc3\xbc\n"),
+            "deck.yaml: line 2 holds the byte 195; expected: ASCII text, but in comments");
+  EXPECT_HAS(messageOfText(std::string("\x1b[31mharmos:\0", 14)), "line 1 holds the byte 27");
   EXPECT_HAS(messageOfText(""), "deck.yaml: empty");
   EXPECT_HAS(messageOfText("harmos: 3\n"), "one map under the outermost key harmos");
   for (char const *beside : {"other:\n  b: 1", "gravity: [0.0, -9.81]", "kinematics: single"})
@@ -234,15 +244,34 @@ TEST(DeckErrors, Yaml_isOneLineWithThePlace)
   EXPECT_HAS(messageOfText("harmoz:\n  a: 1\n"), "outermost key is harmoz; expected: harmos");
 }
 
+TEST(DeckErrors, NamesThatTheTablesUse_areRefusedWhereTheyWouldClash)
+{
+  std::string const body = "={material: block, shape: rectangle, center: [1.0, 0.8], size: [0.1, 0.1], cut: true}";
+  EXPECT_HAS(message({"bodies/contact_wall" + body}), "bodies/contact_wall: this name has a meaning of its own");
+  EXPECT_EQ(message({"bodies/wall_right" + body}), "accepted");
+  EXPECT_EQ(message({"bodies/outside" + body}), "accepted");
+  EXPECT_HAS(message({"bodies/outside" + body, "tracers/p={position: [0, 0]}"}), "bodies/outside: in tracers.csv");
+}
+
+TEST(DeckErrors, FieldsThatWouldNotBeWritten_areRefused)
+{
+  EXPECT_HAS(message({"output/xdmf=false"}), "output/fields: every_... without output/xdmf writes nothing");
+  EXPECT_EQ(message({"output/xdmf=false", "output/fields/every_time=0.0"}), "accepted");
+}
+
 TEST(DeckErrors, NonAsciiComments_areNoError)
 {
   EXPECT_EQ(messageOfText("# Gr\xc3\xbcneisen\n" + exampleDeck()), "accepted");
+  EXPECT_EQ(messageOfText("\xEF\xBB\xBF" + exampleDeck()), "accepted");
 }
 
 TEST(DeckErrors, Overrides_sayWhatIsWrongWithThem)
 {
   EXPECT_EQ(message({"run/end_time"}), "--set run/end_time: expected: path/to/key=value");
   EXPECT_EQ(message({"=1"}), "--set =1: expected: path/to/key=value");
+  EXPECT_EQ(message({"title=a#b"}), "--set title=a#b: a # would begin a comment; expected: none");
+  for (std::string const path : {"run/end_time/", "/run/end_time", "run//end_time"})
+    EXPECT_HAS(message({path + "=1.0"}), "a part of the path is empty");
   EXPECT_HAS(message({"run/end_time/x=1"}), "--set run/end_time/x=1: end_time is no map");
   EXPECT_STARTS(message({"run/end_time=[1"}), "--set run/end_time=[1: not readable as YAML");
   EXPECT_STARTS(message({"run/end=1"}), "deck.yaml: run/end: unknown key");

@@ -66,6 +66,7 @@ class HarmosPlot(unittest.TestCase):
         for arguments, words in (([OUT + "/none"], "no such folder"),
                                  ([RUN, "--history", "speed"], "no column 'speed'"),
                                  ([RUN, "--frame", "7"], "there are 3 frames"),
+                                 ([RUN, "--field", "damage"], "no law of the deck can fail"),
                                  ([RUN, "--film", "a.avi"], ".gif or .mp4"),
                                  ([RUN, "--grey", "lead"], "no such material; there are")):
             result = plot(*arguments)

@@ -3,6 +3,7 @@
 #define HARMOS_PAIR_PHYSICS_HPP
 
 #include <Harmos_EquationOfState.hpp>
+#include <Harmos_Gruneisen.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Strength.hpp>
 
@@ -21,6 +22,8 @@ struct PairRecord
   Deviator<T> deviator;
 };
 
+constexpr double largest_energy_lag = 0.5; // of the pressure, that an expansion may take from it
+
 /// Corner forces on the nodes (equations: computeCornerForces).
 template <Geometry geometry, class T>
 KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, LagrangeOptions const &options,
@@ -37,11 +40,16 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, Lagr
   T const c_length = Math::sqrt(T(c2 * plane.area));
 
   // sv q = c1 c L |theta| + c2 L^2 theta^2: the force volume m sv times q needs no density
-  T const theta = Math::max(T(-rate), T(0.0)) * inverse_volume;
+  T const trace = rate * inverse_volume; // tr D, of the ring where axisymmetric
+  T const theta = Math::max(T(-trace), T(0.0));
   T const sv_q = theta * (options.linear_viscosity * c_length + options.quadratic_viscosity * (plane.area * theta));
   T const scaled_mass = pair.mass * inverse_volume;
   T const scaled_volume = scaled_mass * pair.specific_volume;
-  T const spherical = scaled_volume * eos.pressure + scaled_mass * sv_q;
+  // The internal energy is behind by `energy_lag`: de = - p sv tr D dt, dp = Gamma de / sv. In tension the lag damps.
+  T const gamma_lag = options.energy_lag * gruneisenParameter(material, pair.specific_volume);
+  T const pressure =
+      eos.pressure - Math::max(eos.pressure, T(0.0)) * Math::min(T(gamma_lag * trace), T(largest_energy_lag));
+  T const spherical = scaled_volume * pressure + scaled_mass * sv_q;
   ScaledStress<T> const stress = {spherical - scaled_volume * pair.deviator.xx,
                                   spherical - scaled_volume * pair.deviator.yy, -(scaled_volume * pair.deviator.xy),
                                   spherical + scaled_volume * (pair.deviator.xx + pair.deviator.yy)};

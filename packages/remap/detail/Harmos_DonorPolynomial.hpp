@@ -289,10 +289,9 @@ struct PolynomialFinder
     }
   }
 
-  KOKKOS_INLINE_FUNCTION bool limitsToRange(int cell) const
+  KOKKOS_INLINE_FUNCTION bool limitsToRange() const
   {
-    return in.options.limiter == RemapLimiter::Range ||
-           (in.options.limiter == RemapLimiter::RangeInside && !isAtBoundary(cell));
+    return in.options.limiter == RemapLimiter::Range || in.options.limiter == RemapLimiter::RangeInside;
   }
 
   /// Deviations of the parts' means from the donor's.
@@ -363,6 +362,14 @@ struct PolynomialFinder
     g.lower = {q.record, lesser(q.corner, before.corner)};
     g.upper = {q.record, greater(q.corner, before.corner)};
     gradient(cell, donor, before, g, beyond);
+    if (in.options.limiter == RemapLimiter::RangeInside && isAtBoundary(cell))
+    {
+      int const material = donors.head(donor).material;
+      StageFields const least = loadStageFields(&in.ranges(material, 0));
+      StageFields const largest = loadStageFields(&in.ranges(material, num_stage_fields));
+      g.lower = {lesser(g.lower.record, least.record), lesser(g.lower.corner, least.corner)};
+      g.upper = {greater(g.upper.record, largest.record), greater(g.upper.corner, largest.corner)};
+    }
     return before;
   }
 
@@ -382,7 +389,7 @@ struct PolynomialFinder
       limitVanLeer(beyond, false, g.x.record, g.y.record);
       limitVanLeer(beyond, true, g.x.corner, g.y.corner);
     }
-    bool const to_range = limitsToRange(cell);
+    bool const to_range = limitsToRange();
     double const rho = q.record[DensityField], volume = donors.shape(donor, 0);
     Vector2 slope{g.x.record[DensityField], g.y.record[DensityField]};
     if (to_range)

@@ -64,7 +64,8 @@ struct FieldOverlays
     Pack centroid_x, centroid_y, area;
     Pack volume[most_slots], first_x[most_slots], first_y[most_slots]; // moments of the overlays about it
     Pack to_x[most_slots], to_y[most_slots];                           // weights of the gradient's components
-    Pack limited;                                                      // 1 where the range limits
+    bool widens = false;                                               // RangeInside, and some of them
+    Pack at_boundary;                                                  // 1 there
   };
 
   KOKKOS_FORCEINLINE_FUNCTION void load(int block, Donors &d) const
@@ -199,8 +200,7 @@ struct FieldOverlays
       least = Math::min(least, change);
       most = Math::max(most, change);
     }
-    Pack const part = partWithin(least, most, q, lower, upper);
-    return select(d.limited > Pack(0.0), part, Pack(1.0));
+    return partWithin(least, most, q, lower, upper);
   }
 
   /// Integrals of field f over the overlays.
@@ -218,6 +218,12 @@ struct FieldOverlays
         gy += d.to_y[s] * (other - q);
         lower = Math::min(lower, other);
         upper = Math::max(upper, other);
+      }
+      if (d.widens)
+      {
+        auto const here = d.at_boundary > Pack(0.0);
+        lower = select(here, Math::min(lower, Pack(stage.range(f, 0))), lower);
+        upper = select(here, Math::max(upper, Pack(stage.range(f, 1))), upper);
       }
       if (stage.limiter != RemapLimiter::None)
       {
@@ -247,15 +253,15 @@ struct FieldOverlays
       storePack(stage.column(s, 0) + block * pack_width, d.volume[s]);
     if (stage.order == 2)
       weigh(d);
-    d.limited = 1.0;
-    if (stage.limiter == RemapLimiter::RangeInside)
-      d.limited = packOf(
+    d.widens = stage.range.extent(0) > 0;
+    if (d.widens)
+      d.at_boundary = packOf(
           [&](int lane)
           {
             bool inside = true;
             for (int k = 0; k < 4; ++k)
               inside = inside && stage.mesh.face_neighbour(d.at.cell[lane], k) >= 0;
-            return inside ? 1.0 : 0.0;
+            return inside ? 0.0 : 1.0;
           });
     for (int f = 0; f + 1 < stage.columns; ++f)
       integrate(block, d, f);

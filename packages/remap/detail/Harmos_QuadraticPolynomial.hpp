@@ -366,7 +366,7 @@ struct QuadraticFinder : PolynomialFinder
     coefficients(donor, cell, before, g, p);
     if (in.options.limiter == RemapLimiter::VanLeer)
       limitVanLeer(beyond, p);
-    bool const to_range = limitsToRange(cell);
+    bool const to_range = limitsToRange();
 
     // The density first: it weighs the primitives.
     StageFields c[num_monomials];

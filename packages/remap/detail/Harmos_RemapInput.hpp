@@ -26,8 +26,9 @@ struct Input
   RigidRows rigid;
   RemapOptions options;
   NeighbourLinks links;
-  View<double *[2]> start; // of the nodes: where the motion began; the mesh's own positions unless it is another mesh
-  bool retargeted = false; // it is
+  View<double *[2]> start;   // of the nodes: where the motion began; the mesh's own positions unless it is another mesh
+  bool retargeted = false;   // it is
+  View<double *[32]> ranges; // fieldRanges
 
   KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
   /// Stage field KineticField holds damage.

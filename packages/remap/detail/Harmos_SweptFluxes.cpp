@@ -42,7 +42,7 @@ struct Directions
 struct Beyond
 {
   Pack x[4], y[4];
-  Pack at_boundary; // 1 where a face has no cell beyond it
+  bool at_boundary = false; // some cells are, and the limiter takes the material's range there
 };
 
 template <RemapLimiter limiter>
@@ -140,10 +140,7 @@ struct SweptFluxFunctor
     else if constexpr (limiter == RemapLimiter::VanLeer)
       return vanLeerPart(f, beyond, p);
     else
-    {
-      Pack const part = rangePart(f, out.count, weight, per_staying, deviation);
-      return limiter == RemapLimiter::RangeInside ? Math::max(part, beyond.at_boundary) : part;
-    }
+      return rangePart(f, out.count, weight, per_staying, deviation);
   }
 
   /// The largest part of the deviations from the mean at the faces, at most all, that keeps those and the mean of what
@@ -190,6 +187,23 @@ struct SweptFluxFunctor
     return out;
   }
 
+  /// The range of cells at the boundary of the mesh is that of their material.
+  KOKKOS_FORCEINLINE_FUNCTION void widen(int first, int field, Field &f) const
+  {
+    double lower[pack_width], upper[pack_width];
+    storePack(lower, f.lower);
+    storePack(upper, f.upper);
+    for (int lane = 0; lane < pack_width && first + lane < end; ++lane)
+    {
+      if (!stage.takesRangeOfAll(first + lane))
+        continue;
+      lower[lane] = Math::min(lower[lane], stage.leastOf(first + lane)[field]);
+      upper[lane] = Math::max(upper[lane], stage.largestOf(first + lane)[field]);
+    }
+    f.lower = loadPack(lower);
+    f.upper = loadPack(upper);
+  }
+
   /// The fluxes of a field that is weighted by what leaves, volume or mass.
   KOKKOS_FORCEINLINE_FUNCTION void remapField(int first, int field, Directions const &directions, Beyond const &offset,
                                               Columns const &columns, Outflow const &out, Pack const (&weight)[4],
@@ -199,7 +213,10 @@ struct SweptFluxFunctor
     Pack p[4], deviation[4];
     for (int k = 0; k < 4; ++k)
       p[k] = columns.load(k, FieldColumn + field);
-    Pack const part = limit(differentiate(directions, q, p), offset, p, out, weight, per_staying, deviation);
+    Field f = differentiate(directions, q, p);
+    if (offset.at_boundary)
+      widen(first, field, f);
+    Pack const part = limit(f, offset, p, out, weight, per_staying, deviation);
     for (int i = 0; i < out.count; ++i)
       storePack(out.face[i] + (1 + field) * stage.stride, weight[i] * (q + part * deviation[i]));
   }
@@ -213,14 +230,8 @@ struct SweptFluxFunctor
       offset.x[k] = columns.load(k, CentroidX) - x;
       offset.y[k] = columns.load(k, CentroidY) - y;
     }
-    if constexpr (limiter == RemapLimiter::RangeInside)
-    {
-      constexpr int all_neighbours = 15 * NeighbourBit;
-      int const last = end - 1;
-      offset.at_boundary = packOf(
-          [&](int lane)
-          { return (stage.flags[Math::min(first + lane, last)] & all_neighbours) == all_neighbours ? 0.0 : 1.0; });
-    }
+    for (int cell = first; limiter == RemapLimiter::RangeInside && cell < first + pack_width && cell < end; ++cell)
+      offset.at_boundary = offset.at_boundary || stage.takesRangeOfAll(cell);
     return offset;
   }
 
@@ -244,8 +255,10 @@ struct SweptFluxFunctor
     Pack deviation[4], density[4], mass[4];
     for (int k = 0; k < 4; ++k)
       density[k] = columns.load(k, FieldColumn + DensityField);
-    Pack const part =
-        limit(differentiate(directions, rho, density), offset, density, out, out.volume, per_volume, deviation);
+    Field f = differentiate(directions, rho, density);
+    if (offset.at_boundary)
+      widen(first, DensityField, f);
+    Pack const part = limit(f, offset, density, out, out.volume, per_volume, deviation);
     Pack staying_mass = out.moved_volume * rho;
     for (int i = 0; i < out.count; ++i)
     {

@@ -2,6 +2,7 @@
 #include <detail/Harmos_SweptStage.hpp>
 
 #include <Harmos_LoadPoints.hpp>
+#include <Harmos_Prefetch.hpp>
 #include <Harmos_Select.hpp>
 #include <detail/Harmos_FieldPack.hpp>
 
@@ -353,6 +354,7 @@ struct SweptGatherFunctor
     Block const block = selectCells(begin + number * pack_width);
     if (block.pure == 0u)
       return;
+    writeAhead(stage.record1, block.pair[0]);
     Neighbours beyond;
     GatheredFace gathered[4];
     findNeighbours(block, beyond, gathered);

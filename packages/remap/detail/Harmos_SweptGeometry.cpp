@@ -2,6 +2,7 @@
 #include <detail/Harmos_SweptStage.hpp>
 
 #include <Harmos_LoadPoints.hpp>
+#include <Harmos_Prefetch.hpp>
 #include <Harmos_Select.hpp>
 
 namespace Harmos
@@ -238,6 +239,9 @@ struct SweptGeometryFunctor
                                           int const flags[pack_width], int common) const
   {
     auto const store = [&](int column, Pack const &value) { storePack(stage.at(column, first), value); };
+    readAhead(stage.record, pair[0]);
+    prefetchToRead(stage.position.row(stage.cell_node(cell[0], 2) + rows_ahead));
+    prefetchToRead(stage.half.row(stage.dof_node(pair[0], 2) + rows_ahead));
     PackedVector moved[4], middle[4], back[4];
     for (int k = 0; k < 4; ++k)
     {

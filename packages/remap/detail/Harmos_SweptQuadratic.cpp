@@ -159,6 +159,11 @@ struct SweptQuadraticFunctor
       d.upper = greater(d.upper, value);
       fit.add(spreadOf(neighbour), 1.0, value - d.q);
     }
+    if (stage.takesRangeOfAll(d.cell))
+    {
+      d.lower = lesser(d.lower, FieldPack(stage.leastOf(d.cell)));
+      d.upper = greater(d.upper, FieldPack(stage.largestOf(d.cell)));
+    }
     bool const fitted = fit.solve();
     for (int i = 0; i < 5; ++i)
       d.coefficient[i] = fitted ? fit.right[i] : FieldPack(0.0);
@@ -198,7 +203,7 @@ struct SweptQuadraticFunctor
   KOKKOS_INLINE_FUNCTION FieldPack kept(Donor const &d, double staying_volume, double staying_mass) const
   {
     RemapLimiter const limiter = stage.limiter;
-    if (limiter == RemapLimiter::None || (limiter == RemapLimiter::RangeInside && isAtBoundary(d.cell)))
+    if (limiter == RemapLimiter::None)
       return FieldPack(1.0);
     if (limiter == RemapLimiter::VanLeer)
       return vanLeer(d);
@@ -217,12 +222,6 @@ struct SweptQuadraticFunctor
       part.part[p] =
           partWithin<Pack>(bounds.least.part[p], bounds.most.part[p], d.q.part[p], d.lower.part[p], d.upper.part[p]);
     return part;
-  }
-
-  KOKKOS_INLINE_FUNCTION bool isAtBoundary(int cell) const
-  {
-    constexpr int all_neighbours = 15 * NeighbourBit;
-    return (stage.flags[cell] & all_neighbours) != all_neighbours;
   }
 
   KOKKOS_INLINE_FUNCTION FieldPack vanLeer(Donor const &d) const

@@ -94,9 +94,9 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
                        View<double *> const &kinetic_before, View<double *[num_pair_fields]> const &record_after,
                        View<double *> const &kinetic_after, View<double *[2]> const &velocity_after)
     : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), third_order(in.options.order > 2),
-      limiter(in.options.limiter), cell_node(in.mesh.cell_node), face_neighbour(in.mesh.face_neighbour),
-      position(in.start), target(in.mesh.node_position), retargeted(in.retargeted),
-      cell_depth(in.mesh.cell_depth.data()), node_owned(in.mesh.node_owned.data()),
+      limiter(in.options.limiter), ranges(in.ranges.data()), cell_node(in.mesh.cell_node),
+      face_neighbour(in.mesh.face_neighbour), position(in.start), target(in.mesh.node_position),
+      retargeted(in.retargeted), cell_depth(in.mesh.cell_depth.data()), node_owned(in.mesh.node_owned.data()),
       first_item(in.mesh.node_cell.offset.data()), item(in.mesh.node_cell.item.data()),
       first_neighbour(in.mesh.cell_neighbour.offset.data()), neighbour(in.mesh.cell_neighbour.item.data()),
       node_condition(in.conditions.node_index.data()), condition(in.conditions.condition.data()),

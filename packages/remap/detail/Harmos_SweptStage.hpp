@@ -88,6 +88,7 @@ struct SweptStage
   bool second_order; // or third
   bool third_order;
   RemapLimiter limiter;
+  double const *ranges; // fieldRanges: rows of 32 by material; null unless RangeInside
 
   RowPointer<int, 4> cell_node, face_neighbour;
   RowPointer<double, 2> position; // at the start of the motion
@@ -124,6 +125,15 @@ struct SweptStage
     return columns + column * stride + (cell & mask);
   }
   KOKKOS_FORCEINLINE_FUNCTION int &blockOf(int cell) const { return block[(cell & mask) / pack_width]; }
+  /// Whether the limiter takes the material's range in a cell: at the boundary of the mesh.
+  KOKKOS_FORCEINLINE_FUNCTION bool takesRangeOfAll(int c) const
+  {
+    constexpr int all_neighbours = 15 * NeighbourBit;
+    return ranges != nullptr && pure_material[c] >= 0 && (flags[c] & all_neighbours) != all_neighbours;
+  }
+  /// Rows of fieldRanges for the fields of a record.
+  KOKKOS_FORCEINLINE_FUNCTION double const *leastOf(int c) const { return ranges + 32 * pure_material[c]; }
+  KOKKOS_FORCEINLINE_FUNCTION double const *largestOf(int c) const { return leastOf(c) + 16; }
   KOKKOS_FORCEINLINE_FUNCTION bool sameBeyond(int cell, int face) const
   {
     return (flags[cell] & SameBeyondBit << face) != 0;
@@ -152,7 +162,8 @@ void sweptGeometry(SweptStage const &stage, int begin, int end);
 ///
 /// One scalar limiter a field and cell keeps the values at all outgoing faces, and the mean of what stays in the cell,
 /// within the range of the cell and its face neighbours: so the new values are means of values within range
-/// (RemapLimiter::Range; the others bound what their names say).
+/// (RemapLimiter::Range; RangeInside takes the
+/// material's range in cells at the boundary; the others bound what their names say).
 void sweptFluxes(SweptStage const &stage, int begin, int end);
 
 /// The moved cells' spreads, and fluxes of limited quadratics: fitted over the vertex neighbours of the same material,

@@ -138,7 +138,8 @@ TEST(RandomMesh, randomDensityAndPrimitives_stayWithinTheirRange)
 {
   for (int order : {1, 2, 3})
     for (bool swept : {false, true})
-      EXPECT_LE(overshoot(optionsOf(order, swept, RemapLimiter::Range)), 1e-12) << order << swept;
+      for (RemapLimiter limiter : {RemapLimiter::Range, RemapLimiter::RangeInside})
+        EXPECT_LE(overshoot(optionsOf(order, swept, limiter)), 1e-12) << order << swept;
 }
 
 TEST(RandomMesh, whatAContactWallPushesBack_staysWithinTheRangeToo)

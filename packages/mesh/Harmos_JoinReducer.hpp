@@ -6,8 +6,6 @@
 
 namespace Harmos
 {
-namespace detail
-{
 
 /// Kokkos reducer for a small struct whose default value is the identity and whose `join(other)` merges in another.
 ///
@@ -36,28 +34,6 @@ private:
   result_view_type value_;
 };
 
-/// Largest rate and the index that has it; ties: the lowest index, whatever the order of joins.
-struct LargestRate
-{
-  double rate = 0.0;
-  int index = -1;
-
-  KOKKOS_INLINE_FUNCTION void include(double candidate, int i)
-  {
-    if (candidate > rate || (candidate == rate && index >= 0 && i < index))
-    {
-      rate = candidate;
-      index = i;
-    }
-  }
-  KOKKOS_INLINE_FUNCTION void join(LargestRate const &other)
-  {
-    if (other.index >= 0)
-      include(other.rate, other.index);
-  }
-};
-
-} // namespace detail
 } // namespace Harmos
 
 #endif

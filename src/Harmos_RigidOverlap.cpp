@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_Run.hpp"
+
+#include <Harmos_Paint.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace Harmos
+{
+namespace
+{
+
+Shape presentShape(Run const &run, int body)
+{
+  RigidBody const &start = run.scene.rigid_start[body], &now = run.state.bodies[body];
+  return run.scene.rigid_shape[body].moved(now.centre - start.centre, now.angle - start.angle);
+}
+
+/// How far two bodies together fill some cell beyond its volume, over that; 0: no cell. Collective.
+double overlap(Run const &run, std::array<int, 2> const &pair)
+{
+  Shape const shape[2] = {presentShape(run, pair[0]), presentShape(run, pair[1])};
+  double most = 0.0;
+  if (shape[0].boundingBox().meets(shape[1].boundingBox()))
+  {
+    std::vector<double> filled(run.scene.mesh.num_cells, -1.0);
+    for (Shape const &one : shape)
+    {
+      PaintedRows const rows = rigidVolumes(run.scene.mesh, {one}, {0});
+      auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.offset);
+      auto const fraction = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.volume_fraction);
+      for (std::size_t cell = 0; cell < filled.size(); ++cell)
+        for (int row = offset(cell); row < offset(cell + 1); ++row)
+        {
+          filled[cell] += fraction(row);
+          most = std::max(most, filled[cell]);
+        }
+    }
+  }
+  return run.exchange->max(most);
+}
+
+/// Bodies that touch overlap by round-off.
+constexpr double touching = 1e-6;
+
+} // namespace
+
+void watchRigidBodies(Run &run)
+{
+  std::vector<RigidBody> const &bodies = run.state.bodies;
+  if (run.deck.kinematics == Kinematics::Lagrangian)
+    return;
+  for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b)
+    {
+      bool const driven = bodies[a].motion != RigidMotion::Free && bodies[b].motion != RigidMotion::Free;
+      bool const moves = bodies[a].motion == RigidMotion::Prescribed || bodies[b].motion == RigidMotion::Prescribed;
+      // The deck may have cut one out of the other.
+      if (driven && moves && !(overlap(run, {a, b}) > touching))
+        run.watched.push_back({a, b});
+    }
+}
+
+void reportRigidOverlap(Run &run)
+{
+  auto const ran = [&](std::array<int, 2> const &pair)
+  {
+    double const part = overlap(run, pair);
+    if (!(part > touching))
+      return false;
+    std::vector<std::string> const names = materialNames(run.deck);
+    char text[80];
+    std::snprintf(text, sizeof text, " run into one another, by %.2g of a cell: nothing keeps them apart", part);
+    warn(run, "cycle " + std::to_string(run.state.cycle) + ": the rigid bodies " +
+                  names[run.state.bodies[pair[0]].material] + " and " + names[run.state.bodies[pair[1]].material] +
+                  text);
+    return true;
+  };
+  run.watched.erase(std::remove_if(run.watched.begin(), run.watched.end(), ran), run.watched.end());
+}
+
+} // namespace Harmos
