@@ -295,6 +295,10 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   for (Bond const &b : state.bonds)
     bonds.insert(bonds.end(), {static_cast<double>(b.material_b), b.broken ? 1.0 : 0.0});
   scalars.arrays["bonds"] = bonds;
+  std::vector<double> force;
+  for (ContactForce const &f : state.force)
+    force.insert(force.end(), {static_cast<double>(f.key), f.normal, f.tangential});
+  scalars.arrays["contact_force"] = force;
   scalars.deck = deck_.yaml;
   scalars.version = version();
   last_checkpoint_ = writeCheckpoint(mpi_, directory_, scene.mesh, state.pairs, state.state, scalars);

@@ -183,6 +183,8 @@ void restoreState(Run &run)
     throw std::runtime_error("its kinematics is not that of the deck");
   compareDecks(run, scalars.deck);
   CheckpointState read = readCheckpoint(MPI_COMM_WORLD, run.options.restart, run.scene.mesh);
+  if (run.deck.kinematics != Kinematics::Lagrangian)
+    updateCornerShares(run.scene.mesh);
   CycleState &s = run.state;
   s.pairs = read.pairs;
   s.state.record = read.record;
@@ -203,6 +205,9 @@ void restoreState(Run &run)
   run.ledger = Ledger::fromValues(arrayOf(scalars, "ledger"));
   restoreTracers(run, arrayOf(scalars, "tracers"));
   restoreBonds(run, arrayOf(scalars, "bond_tracers"), arrayOf(scalars, "bonds"));
+  std::vector<double> const &force = arrayOf(scalars, "contact_force");
+  for (std::size_t i = 0; i + 3 <= force.size(); i += 3)
+    s.force.push_back({static_cast<long long>(force[i]), force[i + 1], force[i + 2]});
   std::vector<double> const &ended = arrayOf(scalars, "ended");
   run.start = {true, false, s.cycle, s.time, ended.at(0) != 0.0, ended.at(1) != 0.0};
   run.first_cycle = s.cycle;

@@ -196,7 +196,7 @@ void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials,
           velocity(dof, d) = half(dof, d);
         }
       });
-  updateGeometry(mesh);
+  updateVolumes(mesh);
 }
 
 /// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2. Owned cells.
@@ -343,7 +343,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, dt);
       report.constraint = constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass,
                                               s.state.velocity, work.predicted, work.half, bodies_n, s.bodies, dt,
-                                              stress, s.bonds, scene.constraint, exchange);
+                                              stress, s.bonds, scene.constraint, exchange, s.force);
     }
     // What moves with its mesh outruns no neighbourhood: only the sheared and thinned cells of the reference would pay.
     if (scene.kinematics == Kinematics::Lagrangian)
@@ -356,6 +356,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       break;
   }
   report.dt = dt;
+  s.force = report.constraint.force;
   report.broken_bonds = breakBonds(report.constraint.bond_load, scene.constraint, dt, s.bonds);
   if (scene.kinematics != Kinematics::Lagrangian)
   {

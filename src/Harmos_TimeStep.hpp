@@ -67,6 +67,7 @@ struct CycleState
   std::vector<Tracer> tracers;       // moved with v^{n+1/2}
   std::vector<Bond> bonds;           // of the pairs whose bonds can break; found in the first cycle
   std::vector<Tracer> bond_tracers;  // what moves them
+  std::vector<ContactForce> force;   // of the last cycle's rows, where the solver starts from them
   double time = 0.0;                 // [s], of the records; velocities are half a step behind
   double dt = 0.0;                   // of the next cycle [s]
   TimeStepLimit limit;               // what sets it

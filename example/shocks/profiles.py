@@ -49,7 +49,7 @@ def plate(axes, results):
 
 def main(results, picture):
     results = pathlib.Path(results)
-    figure, axes = plt.subplots(2, 2, figsize=(9.0, 6.6), constrained_layout=True)
+    figure, axes = plt.subplots(2, 3, figsize=(13.0, 6.6), constrained_layout=True)
     x, _, density, _ = last_fields(Folder(results / "sod"))
     fine = numpy.linspace(0.0, 1.0, 4000)
     axes[0, 0].plot(fine, sod_density(fine, 0.2), color="#B65D5D", lw=1.2, label="exact")
@@ -60,7 +60,10 @@ def main(results, picture):
     radial(axes[1, 0], results / "sedov", "Sedov, t = 1 s, 120 x 120",
            lambda r: numpy.where(r < 1.0, 6.0 * numpy.interp(r, radius, shape), 1.0), 1.15)
     plate(axes[1, 1], results / "plate_impact")
-    for a in axes.flat:
+    radial(axes[0, 2], results / "noh_spherical", "Noh, spherical about the axis, t = 0.6 s, 100 x 100",
+           lambda r: numpy.where(r < 0.2, 64.0, (1.0 + 0.6 / r) ** 2), 0.4)
+    axes[1, 2].remove()
+    for a in axes.flat[:5]:
         a.legend(frameon=False, fontsize=8)
         a.grid(alpha=0.25)
     figure.savefig(picture, dpi=100)

@@ -120,7 +120,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      View<double *[2]> const &half, std::vector<RigidBody> const &bodies_n,
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                                     Exchange const &exchange)
+                                     Exchange const &exchange, std::vector<ContactForce> const &last)
 {
   ScopedRegion const region("Harmos::constrain");
   if (!(dt > 0.0))
@@ -148,10 +148,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
   MultiplierSolution const solution = is_explicit ? explicitImpulses({mesh, pairs, {velocity_n, table_n}, pair_stress},
                                                                      system, rows, dt, options, exchange)
-                                                  : solveMultipliers(mesh, system, rows, dt, options, exchange);
+                                                  : solveMultipliers(mesh, system, rows, dt, options, exchange, last);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;
+  report.force = solution.force;
   moveFreeBodies(system, solution.body_change, bodies);
   writeHalf(mesh, dof_nodes, predicted, buildBodyTable(bodies, num_materials), half);
   addChange(system, solution.change, half);

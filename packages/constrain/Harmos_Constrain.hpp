@@ -49,6 +49,13 @@ struct PairForce
   }
 };
 
+/// Force of a row over a cycle, with which the next one may start. [N/m]
+struct ContactForce
+{
+  long long key; // ContactRow::key
+  double normal, tangential;
+};
+
 struct ConstraintReport
 {
   long long rows = 0; // multipliers, over all ranks
@@ -62,6 +69,7 @@ struct ConstraintReport
   std::vector<double> body_torque;       // about its centre
   std::vector<PairForce> pair_force;     // (materials + 1)^2, row-major; last index: contact wall
   std::vector<BondLoad> bond_load;       // by bond
+  std::vector<ContactForce> force;       // warm_start: of all ranks' rows, by key; the same on every rank
 };
 
 /// \brief Correct the predicted velocities by the impulses of contact (and ties) between all bodies.
@@ -87,6 +95,7 @@ struct ConstraintReport
 /// \param dt         Of the cycle [s]
 /// \param pair_stress num_pairs: Cauchy stress xx, yy, xy [Pa]; Nitsche's method alone reads it
 /// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
+/// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.
 /// \return Sums over all ranks. `converged` is false where the tolerance was not reached: the velocities are then those
 /// of
 ///         the last iterate, which conserves momentum all the same.
@@ -99,7 +108,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      View<double *[2]> const &half, std::vector<RigidBody> const &bodies_n,
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                                     Exchange const &exchange);
+                                     Exchange const &exchange, std::vector<ContactForce> const &last = {});
 
 /// The bonds of a scene at its start: one for each slave cell and pair of materials whose bond can break, where they
 /// touch. In the order of the global cells, the same on all ranks. Collective.

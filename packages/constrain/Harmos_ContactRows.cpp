@@ -207,7 +207,7 @@ struct RowBuilder
     row.point = a.point;
     row.normal = normal;
     row.gap = hit(i).gap;
-    row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.point);
+    row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
     setInteraction(b, row);
     fillSide(a, a.point, row.body_a, row.dof_a, row.weight_a);
     fillSide(b, a.point + row.gap * a.normal, row.body_b, row.dof_b, row.weight_b);

@@ -309,6 +309,34 @@ double DualProblem::bodyTrace() const
   return trace;
 }
 
+std::vector<double> AssembledProblem::unknownsOf(std::vector<ContactForce> const &force, double dt) const
+{
+  std::vector<double> x(rows.b.size(), 0.0);
+  for (ContactForce const &f : force)
+  {
+    std::size_t const i = static_cast<std::size_t>(placeOf(key, f.key));
+    if (i == key.size() || key[i] != f.key)
+      continue;
+    x[first[i]] = dt * f.normal * rows.root[first[i]];
+    if (twoDirections(first[i]))
+      x[first[i] + 1] = dt * f.tangential * rows.root[first[i] + 1];
+  }
+  return x;
+}
+
+std::vector<ContactForce> AssembledProblem::forcesOf(std::vector<double> const &x, double dt) const
+{
+  std::vector<ContactForce> force;
+  for (std::size_t i = 0; i < key.size(); ++i)
+  {
+    int const u = first[i];
+    double const across = twoDirections(u) ? x[u + 1] / (dt * rows.root[u + 1]) : 0.0;
+    if (x[u] != 0.0 || across != 0.0)
+      force.push_back({key[i], x[u] / (dt * rows.root[u]), across});
+  }
+  return force;
+}
+
 AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
                                      Placement placement, Exchange const &exchange)
 {
@@ -337,6 +365,8 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
     bool const known = i < static_cast<int>(all.key.size()) && all.key[i] == k;
     problem.first.push_back(known ? first[i] : -1);
   }
+  assembled.key = all.key;
+  assembled.first = first;
   if (sharesMultipliers(placement))
   {
     std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own.key, exchange);

@@ -59,6 +59,21 @@ struct AssembledProblem
   DualProblem rows;   // one unknown for each direction of a row
   DualProblem groups; // sharesMultipliers: of a group
   Spread spread;      // from groups to rows
+
+  std::vector<long long> key; // of all ranks' rows, ascending
+  std::vector<int> first;     // their first unknowns
+
+  /// Unknowns of the rows from forces of rows, those of no row left out; zero where nothing is known.
+  std::vector<double> unknownsOf(std::vector<ContactForce> const &force, double dt) const;
+
+  /// The other way.
+  std::vector<ContactForce> forcesOf(std::vector<double> const &x, double dt) const;
+
+private:
+  bool twoDirections(int unknown) const
+  {
+    return rows.tied[unknown] != 0 || (unknown + 1 < rows.size() && rows.normal_of[unknown + 1] == unknown);
+  }
 };
 
 /// Collective: every rank gets the rows of all.

@@ -274,7 +274,7 @@ struct SegmentFinder
       double const begin = pieces.begin[i / points.count], length = pieces.end[i / points.count] - begin;
       s.length = length / points.count;
       s.midpoint = edge.start + (begin + (half + 0.5) * s.length) * edge.direction;
-      s.point = s.midpoint;
+      s.point = middleOf(s.midpoint, edge.direction, s.length);
       if (points.count == 2)
         s.point = edge.start + (begin + (half == 0 ? points.inset : 1.0 - points.inset) * length) * edge.direction;
       s.normal = edge.normal;
@@ -286,6 +286,15 @@ struct SegmentFinder
       s.face = face;
     }
     return count;
+  }
+
+  /// Where the segment's area balances. Axisymmetric: its ring's, s = L^2 r' / (12 r) beyond the midpoint; a uniform
+  /// pressure over the ring then loads its nodes as ring shares lump their masses.
+  KOKKOS_INLINE_FUNCTION Vector2 middleOf(Vector2 const &midpoint, Vector2 const &direction, double length) const
+  {
+    if (mesh.geometry == Geometry::Planar || !(midpoint[0] > 0.0))
+      return midpoint;
+    return midpoint + (length * length * direction[0] / (12.0 * midpoint[0])) * direction;
   }
 
   static KOKKOS_INLINE_FUNCTION InterfaceSegment blankSegment(int cell, CellFrame const &frame)
@@ -344,7 +353,8 @@ struct SegmentFinder
         InterfaceSegment &s = segment(first + count);
         Edge const &face = frame.face[k];
         s = blank;
-        s.point = s.midpoint = face.start + 0.5 * face.length * face.direction;
+        s.midpoint = face.start + 0.5 * face.length * face.direction;
+        s.point = middleOf(s.midpoint, face.direction, face.length);
         s.normal = -face.normal;
         s.length = face.length;
         s.exposed = 1.0;

@@ -265,13 +265,18 @@ public:
 
   /// Projected Newton steps on the assembled problem; judged by the operator without a matrix, or where groups of rows
   /// share a multiplier by their problem's residual.
-  void byProjectedNewton(Mesh const &mesh, ContactRows const &rows, Placement placement)
+  void byProjectedNewton(Mesh const &mesh, ContactRows const &rows, ConstraintOptions const &options, double dt,
+                         std::vector<ContactForce> const &last)
   {
     if (residualFits())
       return;
-    AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, placement, exchange_);
-    bool const grouped = sharesMultipliers(placement);
-    DualSolution const dual = projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_);
+    AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, options.placement, exchange_);
+    bool const grouped = sharesMultipliers(options.placement);
+    DualSolution const dual =
+        projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_,
+                        options.warm_start ? problem.unknownsOf(last, dt) : std::vector<double>());
+    if (options.warm_start)
+      solution.force = problem.forcesOf(dual.x, dt);
     solution.iterations = dual.iterations;
     std::vector<double> spread(grouped ? problem.rows.size() : 0, 0.0);
     for (Spread::Entry const &e : problem.spread.entry)
@@ -382,13 +387,14 @@ private:
 } // namespace
 
 MultiplierSolution solveMultipliers(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, double dt,
-                                    ConstraintOptions const &options, Exchange const &exchange)
+                                    ConstraintOptions const &options, Exchange const &exchange,
+                                    std::vector<ContactForce> const &last)
 {
   Solve solve(system, rows, dt, options, exchange);
   if (options.solver == MultiplierMethod::RowSums)
     solve.byRowSums();
   else if (options.solver == MultiplierMethod::ProjectedNewton)
-    solve.byProjectedNewton(mesh, rows, options.placement);
+    solve.byProjectedNewton(mesh, rows, options, dt, last);
   else
     solve.byConjugateGradients();
   return solve.solution;

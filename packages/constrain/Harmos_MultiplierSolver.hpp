@@ -15,6 +15,7 @@ struct MultiplierSolution
   int iterations = 0;
   double residual = 0.0; // relative
   bool converged = true;
+  std::vector<ContactForce> force = {}; // options.warm_start: of all ranks' rows, by key
 };
 
 /// \brief Solve r = b + G M^-1 P G^T p >= 0, p >= 0, p r = 0 (tied rows: r = 0, p of any sign; across n with friction:
@@ -39,10 +40,12 @@ struct MultiplierSolution
 /// max(largest |G v*|, 1e-6 speed_scale). Every comparison is between numbers that do not depend on ranks.
 ///
 /// \param rows Their `travelling` carries the multipliers between ranks.
+/// \param last Where options.warm_start begins: rows of the same key get the force of the last cycle.
 /// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23-43; Dostal, Haslinger & Kucera, J. Comput. Appl. Math. 140
 /// (2002) 245-256 (friction).
 MultiplierSolution solveMultipliers(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, double dt,
-                                    ConstraintOptions const &options, Exchange const &exchange);
+                                    ConstraintOptions const &options, Exchange const &exchange,
+                                    std::vector<ContactForce> const &last);
 
 } // namespace Harmos
 

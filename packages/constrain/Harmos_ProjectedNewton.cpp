@@ -30,8 +30,10 @@ public:
   }
 
   /// Every round counts at least one iteration, so that it ends.
-  DualSolution solve()
+  DualSolution solve(Vector const &start)
   {
+    if (!start.empty())
+      beginAt(start);
     exchangeActiveSets();
     while (iterations_ < max_iterations_)
     {
@@ -81,6 +83,21 @@ private:
       bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
       x_[i] = slides ? (g_[i] < 0.0 ? reach_[i] : -reach_[i]) : bounds(i).clip(x_[i]);
     }
+  }
+
+  /// What the shift compares residuals with stays that of zero.
+  void beginAt(Vector const &start)
+  {
+    start_ = violation();
+    x_ = start;
+    gradient(x_, g_);
+    moveReach();
+    gradient(x_, g_);
+    if (violation() < start_)
+      return;
+    std::fill(x_.begin(), x_.end(), 0.0);
+    std::fill(reach_.begin(), reach_.end(), 0.0);
+    g_ = problem_.b;
   }
 
   void setShift(double factor, double reached)
@@ -311,9 +328,10 @@ private:
 
 } // namespace
 
-DualSolution projectedNewton(DualProblem const &problem, double enough, int max_iterations)
+DualSolution projectedNewton(DualProblem const &problem, double enough, int max_iterations,
+                             std::vector<double> const &start)
 {
-  return Newton(problem, enough, max_iterations).solve();
+  return Newton(problem, enough, max_iterations).solve(start);
 }
 
 } // namespace Harmos

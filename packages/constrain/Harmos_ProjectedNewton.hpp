@@ -24,10 +24,12 @@ struct DualSolution
 /// bodies: one iteration, and a few more for each body. Friction's bounds follow the impulses along n from step to
 /// step.
 ///
+/// \param start  Where to begin; empty, or farther from the solution than zero is: at zero.
 /// \param enough Of the residual sqrt(D) (A x + b), as ImpulseBounds::violation measures it. [m/s]
 /// Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2002) 865-888 (active sets); Bertsekas, SIAM J. Control Optim. 20
 /// (1982) 221-246.
-DualSolution projectedNewton(DualProblem const &problem, double enough, int max_iterations);
+DualSolution projectedNewton(DualProblem const &problem, double enough, int max_iterations,
+                             std::vector<double> const &start = {});
 
 } // namespace Harmos
 

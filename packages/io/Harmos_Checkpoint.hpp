@@ -57,7 +57,8 @@ CheckpointScalars readCheckpointScalars(std::string const &path);
 /// Read the pairs of the local cells, owned and halo, of any partition of the same mesh; collective.
 ///
 /// Every rank scans the whole file, verifies its checksums and keeps the rows of its cells.
-/// \param mesh Its node positions and cell areas are replaced where the file holds them.
+/// \param mesh Its node positions, cell areas and volumes are replaced where the file holds them; its corner shares
+///             are not (updateCornerShares: where the mesh does not move with its material).
 /// \throws std::runtime_error with the file's name: missing or cut short, another format, of another mesh, or damaged.
 CheckpointState readCheckpoint(MPI_Comm comm, std::string const &path, Mesh &mesh);
 

@@ -333,7 +333,7 @@ CheckpointState readCheckpoint(MPI_Comm comm, std::string const &path, Mesh &mes
   if (file.exists("/nodes"))
   {
     readNodes(path, file, mesh);
-    updateGeometry(mesh);
+    updateVolumes(mesh);
   }
   return state;
 }

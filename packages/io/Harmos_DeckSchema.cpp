@@ -235,6 +235,8 @@ void addNumerics(ParameterList &list)
       "of the multipliers. projected newton: with a factor of the assembled matrix, on every rank the whole problem; "
       "conjugate gradients: with projections, without a matrix; row sums: the plain iteration with the row sums of the "
       "operator, for comparison");
+  add(c.sublist("solver = projected newton"), "warm_start", constraint.warm_start, rulesOf(KeyType::Bool),
+      "begin with the forces of the last cycle");
   add(c, "tolerance", constraint.tolerance, number({0.0, 1e-2, true, false}), "relative residual of the multipliers");
   add(c, "max_iterations", constraint.max_iterations, integer({1.0, infinity, false, false}), "limit for one cycle");
   add(c, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),

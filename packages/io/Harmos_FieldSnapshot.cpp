@@ -29,6 +29,7 @@ struct HostState
   decltype(onHost(View<int *>())) cell_depth, node_owned, offset, material, cell, cell_region, dof_offset;
   decltype(onHost(View<long long *>())) cell_global, node_global;
   decltype(onHost(View<double *[num_pair_fields]>())) record;
+  decltype(onHost(View<double *[4]>())) corner_share;
   decltype(onHost(View<Region *>())) polygon;
   decltype(onHost(View<Material *>())) law;
 
@@ -55,12 +56,14 @@ struct HostState
   }
 };
 
-void addNodes(HostState const &h, int num_nodes, int num_dof_nodes, int num_pairs, FieldSnapshot::Nodes &nodes)
+void addNodes(HostState const &h, bool quarters, int num_nodes, int num_dof_nodes, int num_pairs,
+              FieldSnapshot::Nodes &nodes)
 {
   std::vector<double> mass(static_cast<std::size_t>(num_dof_nodes), 0.0);
   for (int pair = 0; pair < num_pairs; ++pair)
     for (int k = 0; k < 4; ++k)
-      mass[static_cast<std::size_t>(h.dof_node(pair, k))] += 0.25 * h.record(pair, Mass);
+      mass[static_cast<std::size_t>(h.dof_node(pair, k))] +=
+          (quarters ? 0.25 : h.corner_share(h.cell(pair), k)) * h.record(pair, Mass);
   for (int node = 0; node < num_nodes; ++node)
   {
     if (!h.node_owned(node))
@@ -216,6 +219,7 @@ FieldSnapshot takeSnapshot(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
   h.cell_area = onHost(mesh.cell_area);
   h.damage = onHost(state.damage);
   h.cell_volume = onHost(mesh.cell_volume);
+  h.corner_share = onHost(mesh.corner_share.part);
   h.cell_depth = onHost(mesh.cell_depth);
   h.node_owned = onHost(mesh.node_owned);
   h.offset = onHost(pairs.offset);
@@ -232,7 +236,7 @@ FieldSnapshot takeSnapshot(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
   FieldSnapshot snapshot;
   snapshot.pairs.has_damage = state.tracks_damage;
   snapshot.geometry = mesh.geometry;
-  addNodes(h, mesh.num_nodes, dof_nodes.num_dof_nodes, pairs.num_pairs, snapshot.nodes);
+  addNodes(h, mesh.corner_share.quarters(), mesh.num_nodes, dof_nodes.num_dof_nodes, pairs.num_pairs, snapshot.nodes);
   for (int c = 0; c < mesh.num_cells; ++c)
   {
     if (h.cell_depth(c) != 0)

@@ -55,11 +55,12 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
         for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
         {
           int const cell = mesh.node_cell.item(i) / 4;
+          double const share = mesh.corner_share(cell, mesh.node_cell.item(i) % 4);
           for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
             if ((material < 0 || pairs.material(pair) == material) && materials(pairs.material(pair)).rigid_body < 0)
-              mass += record(pair, Mass);
+              mass += share * record(pair, Mass);
         }
-        dof_mass(dof) = 0.25 * mass;
+        dof_mass(dof) = mass;
       });
 }
 

@@ -121,8 +121,8 @@ void prepareWork(CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_no
 /// Least altitude of the cells around each node -> work.node_altitude; once, and whenever the nodes have moved.
 void computeNodeAltitudes(Mesh const &mesh, LagrangeWork &work);
 
-/// Lumped mass of the dof nodes: a quarter of each deformable pair's mass to its four, gathered in the order of
-/// mesh.node_cell. Rigid materials give none. predictVelocities does the same on its way.
+/// Lumped mass of the dof nodes: each deformable pair's mass goes to its four by mesh.corner_share (planar a quarter,
+/// axisymmetric the integral of r N_I dA over that of r dA), gathered in the order of mesh.node_cell. Rigid materials give none. predictVelocities does the same on its way.
 void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                     PairState const &state, View<Material *> const &materials, LagrangeWork &work);
 

@@ -34,17 +34,18 @@ KOKKOS_INLINE_FUNCTION void addPair(Mesh const &mesh, CellMaterialPairs const &p
   double px = 0.0, py = 0.0, turning = 0.0, speed2 = 0.0;
   for (int k = 0; k < 4; ++k)
   {
-    px += v.x[k];
-    py += v.y[k];
-    turning += x.x[k] * v.y[k] - x.y[k] * v.x[k];
-    speed2 += v.x[k] * v.x[k] + v.y[k] * v.y[k];
+    double const share = mesh.corner_share(cell, k);
+    px += share * v.x[k];
+    py += share * v.y[k];
+    turning += share * (x.x[k] * v.y[k] - x.y[k] * v.x[k]);
+    speed2 += share * (v.x[k] * v.x[k] + v.y[k] * v.y[k]);
   }
   row[SumMass] += mass;
   row[SumVolume] += record(pair, VolumeFraction) * mesh.cell_volume(cell);
-  row[SumMomentumX] += 0.25 * mass * px;
-  row[SumMomentumY] += 0.25 * mass * py;
-  row[SumAngularMomentum] += 0.25 * mass * turning;
-  row[SumKineticEnergy] += 0.125 * mass * speed2;
+  row[SumMomentumX] += mass * px;
+  row[SumMomentumY] += mass * py;
+  row[SumAngularMomentum] += mass * turning;
+  row[SumKineticEnergy] += 0.5 * mass * speed2;
   row[SumInternalEnergy] += mass * record(pair, InternalEnergy);
   row[PlasticStrainMax] = Math::max(row[PlasticStrainMax], record(pair, PlasticStrain));
 }

@@ -27,11 +27,19 @@ struct GatherCorners
   Material const *materials;
   RowPointer<double, num_pair_fields> record;
   RowPointer<double, 8> corner_force;
+  RowPointer<double, 4> share; // Mesh::corner_share, about an axis
+  bool about_axis;
 
-  KOKKOS_FORCEINLINE_FUNCTION void add(Gathered &sum, int pair, int corner) const
+  /// Four times the part of a cell's mass that a corner takes.
+  KOKKOS_FORCEINLINE_FUNCTION double fourShares(int cell, int corner) const
+  {
+    return about_axis ? 4.0 * share(cell, corner) : 1.0;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void add(Gathered &sum, int cell, int pair, int corner) const
   {
     double const *force = corner_force.row(pair) + 2 * corner;
-    sum.mass += record(pair, Mass);
+    sum.mass += fourShares(cell, corner) * record(pair, Mass);
     sum.force[0] += force[0];
     sum.force[1] += force[1];
   }
@@ -54,7 +62,7 @@ struct GatherCorners
       while (pair < end && material_of[pair] != material)
         ++pair;
       if (pair < end)
-        add(sum, pair, item[i] & 3);
+        add(sum, cell, pair, item[i] & 3);
     }
     sum.mass *= 0.25;
     return sum;
@@ -71,7 +79,7 @@ struct GatherCorners
         if (materials[material_of[pair]].rigid_body >= 0)
           sum.held = true;
         else
-          add(sum, pair, item[i] & 3);
+          add(sum, cell, pair, item[i] & 3);
     }
     sum.mass *= 0.25;
     return sum;
@@ -195,7 +203,10 @@ struct PredictFunctor
       int const pair = gather.first_pair[item[i] >> 2], corner = item[i] & 3;
       Pack x, y;
       loadPoints([&](int lane) { return gather.corner_force.row(pair + lane) + 2 * corner; }, x, y);
-      plain.mass += packOf([&](int lane) { return gather.record(pair + lane, Mass); });
+      Pack mass = packOf([&](int lane) { return gather.record(pair + lane, Mass); });
+      if (gather.about_axis)
+        mass = mass * packOf([&](int lane) { return gather.fourShares((item[i] >> 2) + lane, corner); });
+      plain.mass += mass;
       plain.force_x += x;
       plain.force_y += y;
     }
@@ -269,7 +280,9 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
                              pairs.material.data(),
                              materials.data(),
                              state.record,
-                             work.corner_force};
+                             work.corner_force,
+                             mesh.corner_share.part,
+                             mesh.geometry == Geometry::Axisymmetric};
   Vector2 const gravity = options.gravity;
   PredictFunctor const predict{gather,
                                boundary,

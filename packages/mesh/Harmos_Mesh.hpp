@@ -3,7 +3,7 @@
 #define HARMOS_MESH_HPP
 
 #include <Harmos_AreaWeight.hpp>
-#include <Harmos_Bilinear.hpp>
+#include <Harmos_CornerShares.hpp>
 
 namespace Harmos
 {
@@ -34,6 +34,7 @@ struct Mesh
   View<int *[4]> cell_node;         // counter-clockwise
   View<double *> cell_area;         // in the plane [length^2]
   View<double *> cell_volume;       // planar: cell_area itself; axisymmetric: integral of r dA, per radian [length^3]
+  CornerShares corner_share;        // of the mass of a pair; a mesh that moves with its material keeps those it began with
   View<int *[4]> face_neighbour;    // 4 * cell + its face number; -1: none on this rank (domain boundary or edge of the halo)
   View<int *[4]> face_boundary;     // number of the boundary that the face lies on, -1: none
   Rows cell_neighbour;              // cell -> cells that share a node with it, without itself, ascending

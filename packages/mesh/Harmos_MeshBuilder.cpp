@@ -201,6 +201,12 @@ Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int ra
 
 void updateGeometry(Mesh &mesh)
 {
+  updateVolumes(mesh);
+  updateCornerShares(mesh);
+}
+
+void updateVolumes(Mesh &mesh)
+{
   Mesh const m = mesh;
   Kokkos::parallel_for(
       "Harmos::mesh::cellArea", RangePolicy(0, m.num_cells),
@@ -212,11 +218,24 @@ void updateGeometry(Mesh &mesh)
       KOKKOS_LAMBDA(int cell) { m.cell_volume(cell) = volume(cellQuadrilateral(m, cell), m.geometry); });
 }
 
+void updateCornerShares(Mesh &mesh)
+{
+  if (mesh.corner_share.quarters())
+    return;
+  Mesh const m = mesh;
+  Kokkos::parallel_for(
+      "Harmos::mesh::cornerShares", RangePolicy(0, m.num_cells),
+      KOKKOS_LAMBDA(int cell) { ringShares(cellQuadrilateral(m, cell), &m.corner_share.part(cell, 0)); });
+}
+
 void separateGeometry(Mesh &mesh)
 {
   mesh.cell_area = View<double *>("Harmos::mesh::cell_area", mesh.num_cells);
   bool const planar = mesh.geometry == Geometry::Planar;
   mesh.cell_volume = planar ? mesh.cell_area : View<double *>("Harmos::mesh::cell_volume", mesh.num_cells);
+  mesh.corner_share.part = {};
+  if (!planar)
+    mesh.corner_share.part = View<double *[4]>("Harmos::mesh::corner_share", mesh.num_cells);
 }
 
 void setGeometry(Mesh &mesh, Geometry geometry)

@@ -19,14 +19,20 @@ Mesh buildMesh(HostMesh const &whole);
 /// A node belongs to the owner of the lowest-numbered cell around it. \throw std::runtime_error
 Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int rank, int halo);
 
-/// Cell areas and volumes from the node positions (which the caller has moved).
+/// Cell areas, volumes and corner shares from the node positions (which the caller has moved).
 void updateGeometry(Mesh &mesh);
+
+/// The same for a mesh that moves with its material: its corners keep their masses, and so their shares.
+void updateVolumes(Mesh &mesh);
+
+/// Lump masses anew: planar a quarter to each corner, axisymmetric by ringShares.
+void updateCornerShares(Mesh &mesh);
 
 /// Make (x, y) of a planar mesh (r, z), per radian, or the other way round: new cell volumes.
 /// \throw std::runtime_error naming a node with r < 0.
 void setGeometry(Mesh &mesh, Geometry geometry);
 
-/// Arrays of one's own for areas and volumes, not yet filled: for a copy whose nodes will be elsewhere.
+/// Arrays of one's own for areas, volumes and corner shares, not yet filled: for a copy whose nodes will be elsewhere.
 void separateGeometry(Mesh &mesh);
 
 /// Number of owned cells with a corner that is not strictly convex (or not a number).

@@ -64,6 +64,16 @@ void checkBoundaryNodes(Input const &in)
                            " off its boundary; nodes may slide along slip and fixed walls and stay at others");
 }
 
+/// Corner shares of the mesh where the motion began.
+CornerShares startShares(Input const &in)
+{
+  CornerShares const share{scratch<double *[4]>("startShares", in.mesh.num_cells)};
+  Kokkos::parallel_for(
+      "Harmos::remap::startShares", RangePolicy(0, in.mesh.num_cells),
+      KOKKOS_LAMBDA(int cell) { ringShares(in.startQuadrilateral(cell), &share.part(cell, 0)); });
+  return share;
+}
+
 /// The classes of the cells: as in the last cycle where nothing that they depend on has changed.
 Classes const &keepClasses(Input const &in, Kept &kept)
 {
@@ -100,7 +110,7 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
     stage.kinetic = scratch<double *>("kinetic", in.pairs.num_pairs);
     Kokkos::parallel_for(
         "Harmos::remap::cornerKineticEnergy", RangePolicy(0, in.pairs.num_pairs),
-        KOKKOS_LAMBDA(int pair) { before(pair) = cornerKineticEnergy(in.pairs, in.half, pair); });
+        KOKKOS_LAMBDA(int pair) { before(pair) = cornerKineticEnergy(in.share, in.pairs, in.half, pair); });
   }
   if (classes.num_swept == 0)
   {
@@ -136,7 +146,7 @@ double otherKineticEnergy(Input const &in, Classes const &classes)
           return;
         for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
           if (!in.isRigid(in.pairs.material(pair)))
-            s += in.state.record(pair, Mass) * cornerKineticEnergy(in.pairs, in.half, pair);
+            s += in.state.record(pair, Mass) * cornerKineticEnergy(in.share, in.pairs, in.half, pair);
       },
       sum);
   return sum;
@@ -240,9 +250,13 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
            {},
            retargeted ? start : mesh.node_position,
            retargeted,
-           {}};
+           {},
+           mesh.corner_share};
   if (retargeted)
     checkBoundaryNodes(in);
+  bool const shares_move = retargeted && !mesh.corner_share.quarters();
+  if (shares_move)
+    in.share = startShares(in);
   Classes const &classes = keepClasses(in, kept);
   if (classes.num_interface > 0 && kept.links.link.extent(0) == 0)
     kept.links = linkNeighbours(mesh);
@@ -272,6 +286,8 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     rebuilt.result.state.velocity = recycle(kept.velocities, "velocity", rebuilt.result.dof_nodes.num_dof_nodes);
   if (!in_place || classes.num_interface > 0)
     nodalVelocities(in, classes, stage, acceptors, rebuilt, in_place, sums);
+  if (shares_move)
+    moveShares(in, rebuilt, sums);
   report.wall_impulse += sums.wall_impulse;
   double const returned = options.return_kinetic_defect ? returnKineticDefect(in, rebuilt) : 0.0;
   report.kinetic_loss += sums.kinetic_before - sums.kinetic_after - out_kinetic - returned;

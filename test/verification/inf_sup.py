@@ -19,7 +19,7 @@ import subprocess
 
 import numpy
 
-from harness import ROOT
+from harness import ROOT, check
 
 ROWS = os.environ.get("HARMOS_INTERFACE_ROWS", str(ROOT / "build/native/packages/constrain/InterfaceRows"))
 PLACEMENTS = ["midpoint", "gauss points", "segment ends", "vital vertices", "mortar"]
@@ -156,3 +156,6 @@ if __name__ == "__main__":
     (folder / "inf-sup.md").write_text(table(values))
     chart(values, folder / "inf-sup.png")
     print("written to", folder)
+    for angle in ANGLES:
+        by_cells = [v[angle] for v in values["mortar"].values()]
+        check(f"mortar, {angle:.0f} degrees: fall of the inf-sup value from the coarsest mesh to the finest", 1.0 - by_cells[-1] / by_cells[0], 0.1)

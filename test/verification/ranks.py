@@ -66,6 +66,10 @@ def test_disc_through_plate():
     clean(compare("disc_through_plate/deck.yaml", ranks=(3, 4)))
 
 
+def test_free_rigid_ball_in_contact_begun_with_the_last_forces():
+    clean(compare(HERE / "rigid_ball.yaml", {"numerics/constraint/warm_start": "true"}, ranks=(2, 4)))
+
+
 def test_free_rigid_ball_in_contact():
     r = compare(HERE / "rigid_ball.yaml", ranks=(2, 4))
     assert max(r["multipliers"]) > 0, "the ball must touch the plate"

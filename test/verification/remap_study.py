@@ -69,7 +69,7 @@ INTRODUCTION = """# The remap alone
 One field remapped over moving meshes of the unit square by `harmos remap` (scene `example/remap`), without mechanics. Written by `test/verification/remap_study.py`; the quick part of it is `test/verification/remap.py`.
 
 Orders: first, second where nothing is said, third. Second and third order are limited (`range`) in the cycle's own schemes (swept, intersection, third) and are not in the comparators (interpolation, projections), unless the name says otherwise. Conservation: largest relative change of the sum of f V over all
-steps. Below, above: how far beyond the range of the start f ever went. Time: of the processor in the remap, on a machine that others use too (half as much again either way); the cycle's schemes carry eight fields and momentum, `field intersection` and the comparators one field. Five steps for each cell along a side.
+steps. Below, above: how far beyond the range of the start f ever went. Time: of the processor in the remap, on a machine that others use too, rows in different hours (half as much again either way, so no ground to compare what lies within that); the cycle's schemes carry eight fields and momentum, `field intersection` and the comparators one field. Five steps for each cell along a side.
 
 ![error against resolution](pictures/remap_resolution.png)
 

@@ -64,6 +64,15 @@ def test_free_rigid_body():
     clean(*goes_on(BALL, cycles=(55, 80)))
 
 
+def test_solver_that_begins_with_the_last_forces():
+    warm = {"numerics/constraint/warm_start": "true", "interactions": "{default: friction, coefficient: 0.2}"}
+    whole, part = goes_on(BLOCK, warm, cycles=(33, 60))
+    cold = harmos(BLOCK, {**stop({**warm, "numerics/constraint/warm_start": "false"}, 60)})
+    assert sum(whole["iterations"]) < sum(cold["iterations"])
+    check("energy taken by contact, against a cold start", abs(whole.last("contact_loss") / cold.last("contact_loss") - 1.0), 1e-6)
+    clean(whole, part, cold)
+
+
 def test_lagrangian():
     clean(*goes_on(BLOCKS))
 

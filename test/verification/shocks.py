@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shocks with exact solutions: Sod's tube, Noh's problem (planar, cylindrical), Sedov's cylindrical blast, plate impact
-with strength; and Verney's collapsing shell.
+with strength; and Verney's collapsing shell; Noh's and Verney's problems in the plane and, about the axis, as spheres.
 
 Errors are volume-weighted L1 means of the cells' density against the exact density at the cell's centre; orders are
 from two resolutions.
 """
-from math import log2, pi, sqrt
+from math import log, log2, pi, sqrt
 
 import h5py
 import numpy
@@ -203,12 +203,16 @@ def test_plate_impact_with_strength_gives_the_two_wave_state():
     clean(r)
 
 
-def surface_radii(r):
-    """Mean radius of the outer free surface and its spread, from the interface segments of the last output."""
+def surface(r):
+    """Distances of the interface segments of the last output from the origin, and their lengths."""
     with h5py.File(sorted(r.directory.glob("fields_*.h5"))[-1]) as file:
         ends = file["/interface/vertex"][:].reshape(-1, 2, 2)
-    middle, length = ends.mean(axis=1), numpy.hypot(*(ends[:, 1] - ends[:, 0]).T)
-    radius = numpy.hypot(middle[:, 0], middle[:, 1])
+    return numpy.hypot(*ends.mean(axis=1).T), numpy.hypot(*(ends[:, 1] - ends[:, 0]).T)
+
+
+def surface_radii(r):
+    """Mean radii of the inner and the outer free surface and their spreads."""
+    radius, length = surface(r)
     result = []
     cut = 0.5 * (radius.min() + radius.max())
     for side in (radius < cut, radius > cut):
@@ -217,21 +221,69 @@ def surface_radii(r):
     return result
 
 
+def verney(deck, cells, exact_inner, exact_outer):
+    """Errors of the inner and the outer radius where the shell has stopped, and the largest plastic strain."""
+    r = harmos(f"verney/{deck}.yaml", {"mesh/x/cells": cells, "mesh/y/cells": cells, **QUIET})
+    (inner, inner_spread), (outer, outer_spread) = surface_radii(r)
+    still = r.history["kinetic_energy"][-1] / r.history["kinetic_energy"][0]
+    strain = r.last("shell.plastic_strain_max")
+    print(f"  {cells * 0.02 / 0.104:.0f} cells over the shell: outer radius {100 * outer:.4f} cm ({100 * (outer / exact_outer - 1.0):+.3f}%, "
+          f"spread {100 * outer_spread:.4f}), inner {100 * inner:.4f} ({100 * (inner / exact_inner - 1.0):+.3f}%, spread "
+          f"{100 * inner_spread:.4f}), kinetic energy left {still:.1e}, plastic strain up to {strain:.3f}")
+    check("energy ledger", r.summary["energy_error"], 1e-10)
+    clean(r)
+    return abs(inner / exact_inner - 1.0), abs(outer / exact_outer - 1.0), strain
+
+
 def test_verney_shell_stops_at_its_radius():
-    exact = 0.072111
-    errors = []
     for cells in (52, 104):
-        r = harmos("verney/deck.yaml", {"mesh/x/cells": cells, "mesh/y/cells": cells, **QUIET})
-        (inner, inner_spread), (outer, outer_spread) = surface_radii(r)
-        still = r.history["kinetic_energy"][-1] / r.history["kinetic_energy"][0]
-        errors.append(outer / exact - 1.0)
-        print(f"  {cells * 0.02 / 0.104:.0f} cells over the shell: outer radius {100 * outer:.4f} cm ({100 * errors[-1]:+.3f}%, "
-              f"spread {100 * outer_spread:.4f}), inner {100 * inner:.4f} (spread {100 * inner_spread:.4f}), "
-              f"kinetic energy left {still:.1e}, plastic strain up to {r.last('shell.plastic_strain_max'):.2f}")
-        check("energy ledger", r.summary["energy_error"], 1e-10)
-        clean(r)
-    check("outer radius at 10 cells over the shell", abs(errors[0]), 5e-3)
-    check("outer radius at 20 cells", abs(errors[1]), 5e-3)
+        _, error, _ = verney("deck", cells, 0.04, 0.072111)
+        check("outer radius", error, 5e-3)
+
+
+def spherical_stop(inner):
+    """Speed u0 of the inner surface at R0 (v = -u0 (R0/R)^2) and outer radius at rest of the incompressible rigid-plastic
+    shell of verney/spherical.yaml whose inner radius ends at `inner`: kinetic energy = plastic work of the strain 2 ln(r0/r).
+    """
+    density, flow_stress, r0, r1 = 1845.0, 0.33e9, 0.08, 0.10
+    point, weight = numpy.polynomial.legendre.leggauss(60)
+    start = 0.5 * (r0 + r1) + 0.5 * (r1 - r0) * point
+    end = (start**3 - r0**3 + inner**3) ** (1.0 / 3.0)
+    work = flow_stress * 0.5 * (r1 - r0) * float((weight * 2.0 * numpy.log(start / end) * start**2).sum())
+    return sqrt(work / (0.5 * density * r0**4 * (1.0 / r0 - 1.0 / r1))), (r1**3 - r0**3 + inner**3) ** (1.0 / 3.0)
+
+
+def test_spherical_verney_shell_stops_at_its_radii():
+    speed, outer = spherical_stop(0.04)
+    check("speed of the deck", abs(speed / 619.787 - 1.0), 1e-6)
+    inner_error, outer_error, strain = verney("spherical", 52, 0.04, outer)
+    check("inner radius", inner_error, 2e-3)
+    check("outer radius", outer_error, 2e-3)
+    check("largest plastic strain, exact 2 ln 2", abs(strain / (2.0 * log(2.0)) - 1.0), 0.03)
+
+
+def spherical_noh(cells):
+    """L1 of the density by volume within 0.35, mean density of the plateau of 64, shock, spread of the shock's radius."""
+    r = harmos("shocks/noh_spherical.yaml", {"mesh/x/cells": cells, "mesh/y/cells": cells, "output/fields/every_time": 0.0})
+    x, area, density, _ = last_fields(r)
+    radius, volume, t = numpy.hypot(x[:, 0], x[:, 1]), area * x[:, 0], 0.6
+    near = radius < 0.35
+    error = l1(density[near], numpy.where(radius < t / 3.0, 64.0, (1.0 + t / radius) ** 2)[near], volume[near])
+    plateau = (radius > 0.06) & (radius < 0.15)
+    mean = float((density * volume)[plateau].sum() / volume[plateau].sum())
+    ring = abs(radius - 0.1) < 0.02
+    print(f"  {cells} cells: L1 {error:.3f}, plateau {mean:.2f}, density over the shell R = 0.1 from {density[ring].min():.2f} to "
+          f"{density[ring].max():.2f}, on the axis there {density[ring & (x[:, 0] < 1.0 / cells)].mean():.2f}")
+    check("energy ledger", r.summary["energy_error"], 1e-10)
+    check("mass", r.summary["mass_error"], 1e-12)
+    clean(r)
+    return error, mean
+
+
+def test_noh_spherical_density_converges():
+    coarse, fine = spherical_noh(50), spherical_noh(100)
+    check("L1 at 100 cells over that at 50", fine[0] / coarse[0], 0.75)
+    check("what the plateau lacks of 64, at 100 cells over that at 50", (64.0 - fine[1]) / (64.0 - coarse[1]), 0.85)
 
 
 if __name__ == "__main__":

@@ -71,6 +71,7 @@ struct TinyScene
   std::vector<RigidBody> bodies_n, bodies;
   View<double *[3]> pair_stress; // Nitsche alone
   std::vector<Bond> bonds;
+  std::vector<ContactForce> last; // options.warm_start alone
   ConstraintOptions options;
   Exchange const *exchange = &serialExchange();
   double dt = 1e-3;
@@ -130,7 +131,7 @@ struct TinyScene
   {
     bodies = bodies_n;
     return constrainVelocities(mesh, pairs, dof_nodes, regions, conditions, dof_mass, velocity_n, predicted, half,
-                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange);
+                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange, last);
   }
 
   void forEachDof(std::function<void(int, int, Vector2)> const &visit) const

@@ -284,3 +284,47 @@ TEST(ProjectedNewton, conjugateGradients_findTheSameVelocities)
     EXPECT_NEAR(spin[1], spin[0], 1e-6);
   }
 }
+
+// Begun with the forces of the cycle before, the solver needs no iteration where nothing has changed, and elsewhere
+// finds the same velocities; forces that lead astray are left out.
+TEST(ProjectedNewton, warmStart_findsTheSameVelocitiesInFewerIterations)
+{
+  for (Interaction const kind : {Interaction::Sliding, Interaction::Bonded, Interaction::Friction})
+  {
+    TinyScene scene(
+        rectilinearMesh(uniform(12, 12), uniform(6, 6)),
+        {polygonBody(0, {{0, 0}, {5.3, 0}, {4.6, 6}, {0, 6}}), polygonBody(1, {{5.3, 0}, {12, 0}, {12, 6}, {4.6, 6}})},
+        2, open_box, Kinematics::Xfem, {2.0, 3.0});
+    PairInteraction law;
+    law.kind = kind;
+    law.friction = kind == Interaction::Friction ? 0.3 : 0.0;
+    scene.setInteraction(0, 1, law);
+    scene.options.tolerance = 1e-10;
+    scene.setVelocity(
+        [](int material, Vector2 const &x) {
+          return Vector2{(material == 0 ? 60.0 : -40.0) * std::cos(0.4 * x[1]), 10.0 * std::sin(x[0])};
+        });
+    ConstraintReport const cold = scene.constrain();
+    EXPECT_TRUE(cold.force.empty());
+    auto const expected = scene.sums(scene.half, 0);
+    scene.options.warm_start = true;
+    ConstraintReport const first = scene.constrain(); // nothing to begin with
+    EXPECT_EQ(first.iterations, cold.iterations);
+    EXPECT_FALSE(first.force.empty());
+    for (double const factor : {1.0, 0.9, -50.0})
+    {
+      scene.last = first.force;
+      for (ContactForce &force : scene.last)
+      {
+        force.normal *= factor;
+        force.tangential *= factor;
+      }
+      ConstraintReport const warm = scene.constrain();
+      EXPECT_TRUE(warm.converged) << warm.residual;
+      EXPECT_LE(warm.iterations, factor == 1.0 ? 1 : cold.iterations) << factor;
+      auto const found = scene.sums(scene.half, 0);
+      EXPECT_NEAR(found.kinetic, expected.kinetic, 1e-8 * expected.kinetic);
+      EXPECT_NEAR(norm(found.momentum - expected.momentum), 0.0, 1e-7 * norm(expected.momentum));
+    }
+  }
+}

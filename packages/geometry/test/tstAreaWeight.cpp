@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GeometryTestTools.hpp"
 
+#include <Harmos_CornerShares.hpp>
 #include <Harmos_Shape.hpp>
 #include <Harmos_ShapeRegion.hpp>
 
@@ -108,6 +109,37 @@ TEST(AreaWeight, SphereHemisphereAndTorus_haveTheirClosedForms)
   Moments<1> const torus = Shape::disc({big, 0.4}, a).intersectionMoments(box(1.0, 0.0, 2.0, 1.0), ring);
   EXPECT_NEAR(torus.volume(), Math::pi * a * a * big, 1e-15);
   EXPECT_NEAR(torus.first(0) + torus.volume(), Math::pi * a * a * (big * big + 0.25 * a * a), 1e-14);
+}
+
+TEST(CornerShares, OfRingSections_balanceWhereTheirVolumeDoes)
+{
+  // sum share_k x_k = integral of r x dA / V, since sum N_k x_k = x
+  Random random(4);
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    Quadrilateral q = ringSection(random);
+    if (trial % 2 == 0)
+      q[0][0] = q[3][0] = 0.0;
+    double share[4], sum = 0.0;
+    ringShares(q, share);
+    Vector2 centre{0.0, 0.0};
+    for (int k = 0; k < 4; ++k)
+    {
+      sum += share[k];
+      centre += share[k] * q[k];
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-14);
+    EXPECT_NEAR(centre[0], volumeCentroid(q, ring)[0], 1e-14);
+    EXPECT_NEAR(centre[1], volumeCentroid(q, ring)[1], 1e-14);
+  }
+}
+
+TEST(CornerShares, OfARectangleAtTheAxis_areASixthAndAThird)
+{
+  double share[4];
+  ringShares(box(0.0, 2.0, 0.3, 2.7), share);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_NEAR(share[k], k == 0 || k == 3 ? 1.0 / 6.0 : 1.0 / 3.0, 1e-15);
 }
 
 TEST(AreaWeight, CellsCutASphereIntoParts_thatAddUpToIt)

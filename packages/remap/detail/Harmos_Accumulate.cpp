@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_Acceptors.hpp>
+#include <detail/Harmos_CornerTransfer.hpp>
 
 namespace Harmos
 {
@@ -61,18 +62,31 @@ struct AccumulateFunctor
     return place;
   }
 
-  /// Add mass-weighted integrals of a donor whose corners are `rotation` ahead of the acceptor's.
-  KOKKOS_INLINE_FUNCTION void add(int candidate, double const *part, int rotation) const
+  /// Corner sums of a part of `cell` in the order of the acceptor's corners, which lag by `rotation`, and for its
+  /// shares.
+  KOKKOS_INLINE_FUNCTION FieldPack cornersOf(double const *part, int cell, int acceptor, int rotation) const
+  {
+    FieldPack const turned = rotatedCorners(part + first_corner_field, rotation);
+    if (in.share.quarters())
+      return turned;
+    double corner[8];
+    turned.store(corner);
+    reshare(in.share, cell, acceptor, rotation, corner);
+    return FieldPack(corner);
+  }
+
+  /// Add mass-weighted integrals of a donor of `cell`, whose corners are `rotation` ahead of the acceptor's.
+  KOKKOS_INLINE_FUNCTION void add(int candidate, double const *part, int cell, int acceptor, int rotation) const
   {
     double *sum = &acceptors.sum(candidate, 0);
     StageFields total = loadStageFields(sum);
-    total += {FieldPack(part), rotatedCorners(part + first_corner_field, rotation)};
+    total += {FieldPack(part), cornersOf(part, cell, acceptor, rotation)};
     total.store(sum);
   }
 
-  KOKKOS_INLINE_FUNCTION void addOverlay(int candidate, double const *part, int rotation) const
+  KOKKOS_INLINE_FUNCTION void addOverlay(int candidate, double const *part, int cell, int acceptor, int rotation) const
   {
-    add(candidate, part, rotation);
+    add(candidate, part, cell, acceptor, rotation);
     double *sum = &acceptors.sum(candidate, VolumeSum);
     (FieldPack(sum) + FieldPack(part + VolumeSum)).store(sum);
   }
@@ -125,10 +139,11 @@ struct AccumulateFunctor
     int const candidate = overlaps || residue ? candidateOf(row, head.material) : -1;
     if (candidate < 0)
       return;
+    int const acceptor = classes.interface_cell(row.index);
     if (overlaps)
-      addOverlay(candidate, overlays.row(donor, slot), rotation);
+      addOverlay(candidate, overlays.row(donor, slot), cell, acceptor, rotation);
     if (residue)
-      add(candidate, &overlays.residue(donor, 0), rotation);
+      add(candidate, &overlays.residue(donor, 0), cell, acceptor, rotation);
   }
 
   KOKKOS_INLINE_FUNCTION void addInflow(Row &row, int acceptor, int cell) const
@@ -153,7 +168,7 @@ struct AccumulateFunctor
       part[VolumeSum] = m.volume();
       part[FirstMomentX] = m.first(0);
       part[FirstMomentY] = m.first(1);
-      addOverlay(candidate, part, 0);
+      addOverlay(candidate, part, acceptor, acceptor, 0);
       if (in.mesh.cell_depth(acceptor) != 0)
         continue;
       bookings(row.index, BookInMass) += mass;
@@ -262,10 +277,11 @@ KOKKOS_INLINE_FUNCTION void takeFragment(Input const &in, Acceptors const &accep
   Vector2 const shift = acceptorOrigin(in.mesh, from_cell) - acceptorOrigin(in.mesh, to_cell);
   for (int f = 0; f < first_corner_field; ++f)
     acceptors.sum(to, f) += acceptors.sum(from, f);
-  for (int k = 0; k < 4; ++k)
-    for (int d = 0; d < 2; ++d)
-      acceptors.sum(to, first_corner_field + 2 * k + d) +=
-          acceptors.sum(from, first_corner_field + 2 * ((k + rotation) % 4) + d);
+  double corner[8];
+  rotatedCorners(&acceptors.sum(from, first_corner_field), rotation).store(corner);
+  reshare(in.share, from_cell, to_cell, rotation, corner);
+  for (int i = 0; i < 8; ++i)
+    acceptors.sum(to, first_corner_field + i) += corner[i];
   double const volume = acceptors.sum(from, VolumeSum);
   acceptors.sum(to, VolumeSum) += volume;
   acceptors.sum(to, FirstMomentX) += acceptors.sum(from, FirstMomentX) + shift[0] * volume;

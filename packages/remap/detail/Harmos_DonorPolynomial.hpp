@@ -177,7 +177,7 @@ struct PolynomialFinder
     n.centroid = n.centre = cellCentroid(in.mesh, cell);
     FieldPack record(&stage.record(pair, 0));
     record.set<DensityField>(stage.record(pair, Mass) / in.mesh.cell_volume(cell));
-    record.set<KineticField>(stage.kineticEnergy(in.pairs, pair));
+    record.set<KineticField>(stage.kineticEnergy(in, pair));
     double corner[8];
     cornerVelocities(in.pairs, in.half, pair, corner);
     n.value = {record, rotatedCorners(corner, rotation)};

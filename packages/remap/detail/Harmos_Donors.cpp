@@ -168,7 +168,7 @@ struct MoveFunctor
     for (int f = 0; f < num_pair_fields; ++f)
       value[f] = stage.record(pair, f);
     value[DensityField] = stage.record(pair, Mass) / donors.shape(donor, 0);
-    value[KineticField] = stage.kineticEnergy(in.pairs, pair);
+    value[KineticField] = stage.kineticEnergy(in, pair);
     cornerVelocities(in.pairs, stage.velocity, pair, value + first_corner_field);
     cornerVelocities(in.pairs, in.half, pair, &donors.half(donor, 0));
   }

@@ -17,9 +17,9 @@ struct StageState
   View<double *> kinetic;                 // num_pairs: KineticField; extent 0: not carried through stage 1
   View<double *[2]> velocity;             // num_dof_nodes
 
-  KOKKOS_INLINE_FUNCTION double kineticEnergy(CellMaterialPairs const &pairs, int pair) const
+  KOKKOS_INLINE_FUNCTION double kineticEnergy(Input const &in, int pair) const
   {
-    return kinetic.extent(0) > 0 ? kinetic(pair) : cornerKineticEnergy(pairs, velocity, pair);
+    return kinetic.extent(0) > 0 ? kinetic(pair) : cornerKineticEnergy(in.share, in.pairs, velocity, pair);
   }
 };
 

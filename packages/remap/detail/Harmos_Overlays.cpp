@@ -261,16 +261,17 @@ struct IntersectFunctor : Finder
     takeWhole(d);
   }
 
-  KOKKOS_INLINE_FUNCTION void bookOutflow(int index, StageFields const &rest) const
+  KOKKOS_INLINE_FUNCTION void bookOutflow(int index, int cell, StageFields const &rest) const
   {
     bookings(index, BookOutMass) += rest.record[DensityField];
     bookings(index, BookOutKinetic) +=
-        in.carriesDamage() ? momentumKineticEnergy(rest.record[DensityField], rest.corner) : rest.record[KineticField];
+        in.carriesDamage() ? momentumKineticEnergy(in.share, cell, rest.record[DensityField], rest.corner)
+                           : rest.record[KineticField];
     bookings(index, BookOutEnergy) += rest.record[InternalEnergy];
     for (int k = 0; k < 4; ++k)
     {
-      bookings(index, BookOutMomentumX) += 0.25 * rest.corner[2 * k];
-      bookings(index, BookOutMomentumY) += 0.25 * rest.corner[2 * k + 1];
+      bookings(index, BookOutMomentumX) += in.share(cell, k) * rest.corner[2 * k];
+      bookings(index, BookOutMomentumY) += in.share(cell, k) * rest.corner[2 * k + 1];
     }
   }
 
@@ -285,7 +286,7 @@ struct IntersectFunctor : Finder
     if (left && ((open & ContactBit) == 0 || leftThroughOutflow(in, d.cell, outside)))
     {
       if (owned)
-        bookOutflow(index, d.rest);
+        bookOutflow(index, d.cell, d.rest);
       return -1;
     }
     double const tolerance = 1e-10 * d.volume + 1e-14 * whole;

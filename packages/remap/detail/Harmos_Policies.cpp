@@ -49,7 +49,7 @@ struct FinishFunctor
       int const pair = in.pairs.find(cell, acceptors.material(c));
       for (int f = 0; f < num_pair_fields; ++f)
         acceptors.record(c, f) = stage.record(pair, f);
-      acceptors.kinetic(c) = stage.kineticEnergy(in.pairs, pair);
+      acceptors.kinetic(c) = stage.kineticEnergy(in, pair);
       for (int d = 0; d < 2; ++d)
         acceptors.centroid(c, d) = in.state.centroid(pair, d);
       for (int k = 0; k < 4; ++k)

@@ -29,6 +29,7 @@ struct Input
   View<double *[2]> start;   // of the nodes: where the motion began; the mesh's own positions unless it is another mesh
   bool retargeted = false;   // it is
   View<double *[32]> ranges; // fieldRanges
+  CornerShares share;        // of the mesh where the motion began, in all of the remap (moveShares)
 
   KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
   /// Stage field KineticField holds damage.
@@ -122,27 +123,28 @@ KOKKOS_INLINE_FUNCTION void returnToYield(Material const &law, T const &plastic_
   xy = scale * xy;
 }
 
-/// Kinetic energy of masses m / 4 with the momenta P_k / 4 at the corners: sum |P_k|^2 / (8 m). [J/m]
+/// Kinetic energy of masses m s_k with the momenta P_k s_k at the corners of a cell: sum s_k |P_k|^2 / (2 m). [J/m]
 template <class Corners>
-KOKKOS_INLINE_FUNCTION double momentumKineticEnergy(double mass, Corners const &momentum)
+KOKKOS_INLINE_FUNCTION double momentumKineticEnergy(CornerShares const &share, int cell, double mass,
+                                                    Corners const &momentum)
 {
   double sum = 0.0;
   for (int i = 0; i < 8; ++i)
-    sum += momentum[i] * momentum[i];
-  return mass > 0.0 ? 0.125 * sum / mass : 0.0;
+    sum += share(cell, i / 2) * (momentum[i] * momentum[i]);
+  return mass > 0.0 ? 0.5 * sum / mass : 0.0;
 }
 
-/// Mean of |v|^2 / 2 over the four corners of a pair: its kinetic energy per mass.
-KOKKOS_INLINE_FUNCTION double cornerKineticEnergy(CellMaterialPairs const &pairs, View<double *[2]> const &velocity,
-                                                  int pair)
+/// Mean of |v|^2 / 2 over the four corners of a pair, by their shares: its kinetic energy per mass.
+KOKKOS_INLINE_FUNCTION double cornerKineticEnergy(CornerShares const &share, CellMaterialPairs const &pairs,
+                                                  View<double *[2]> const &velocity, int pair)
 {
   double sum = 0.0;
   for (int k = 0; k < 4; ++k)
   {
     int const dof = pairs.dof_node(pair, k);
-    sum += velocity(dof, 0) * velocity(dof, 0) + velocity(dof, 1) * velocity(dof, 1);
+    sum += share(pairs.cell(pair), k) * (velocity(dof, 0) * velocity(dof, 0) + velocity(dof, 1) * velocity(dof, 1));
   }
-  return 0.125 * sum;
+  return 0.5 * sum;
 }
 
 } // namespace RemapDetail

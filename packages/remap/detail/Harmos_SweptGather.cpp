@@ -4,6 +4,7 @@
 #include <Harmos_LoadPoints.hpp>
 #include <Harmos_Prefetch.hpp>
 #include <Harmos_Select.hpp>
+#include <detail/Harmos_CornerTransfer.hpp>
 #include <detail/Harmos_FieldPack.hpp>
 
 namespace Harmos
@@ -295,22 +296,79 @@ struct SweptGatherFunctor
     }
   }
 
+  /// Part of what passes through the ring that face k sweeps which is the corner's at its first node a: the integral of
+  /// r N_a along it over that of r, (2 r_a + r_b) / (3 (r_a + r_b)). Nothing passes where both are zero.
+  KOKKOS_FORCEINLINE_FUNCTION Pack faceShare(Block const &block, int k) const
+  {
+    return packOf(
+        [&](int lane)
+        {
+          double const a = stage.position(stage.cell_node(block.cell[lane], k), 0);
+          double const b = stage.position(stage.cell_node(block.cell[lane], (k + 1) & 3), 0);
+          return a + b > 0.0 ? (2.0 * a + b) / (3.0 * (a + b)) : 0.5;
+        });
+  }
+
+  /// Along the edges about an axis. What leaves through a face leaves its corners by faceShare; a corner loses its
+  /// share of what the cell loses. The rest of that balance flows along the edges (cornerFlows).
+  HARMOS_RARE_FUNCTION void advectShares(Block const &block, Pack const share[4], Pack const out[4],
+                                         Pack const &per_mass, Neighbours const &beyond, PackedCorners const &v,
+                                         PackedCorners &gain) const
+  {
+    Pack const loss = (out[0] + out[1]) + (out[2] + out[3]);
+    Pack need[4], flow[4];
+    for (int k = 0; k < 4; ++k)
+      need[k] = -(share[k] * loss);
+    for (int k = 0; k < 4; ++k)
+    {
+      Pack const part = faceShare(block, k);
+      need[k] += part * out[k];
+      need[(k + 1) & 3] += (1.0 - part) * out[k];
+    }
+    cornerFlows(share, need, flow);
+    for (int a = 0; a < 4; ++a)
+    {
+      int const b = (a + 1) & 3, behind = (a + 3) & 3; // beyond b lies face b
+      auto const forward = flow[a] > Pack(0.0);
+      Pack const amount = Math::fabs(flow[a]);
+      Pack const crossed = amount * per_mass / (share[a] + share[b]);
+      Pack const part = 0.5 * (1.0 - Math::min(Pack(1.0), crossed));
+      Pack const beyond_x = select(forward, beyond.velocity_x[behind][1], beyond.velocity_x[b][0]);
+      Pack const beyond_y = select(forward, beyond.velocity_y[behind][1], beyond.velocity_y[b][0]);
+      transfer(forward, amount, part, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
+      transfer(forward, amount, part, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
+    }
+  }
+
   /// The momentum that the corners gain. \return The kinetic energy before, of the pure owned cells.
   KOKKOS_FORCEINLINE_FUNCTION double moveMomentum(Block const &block, Neighbours const &beyond, Exchanged const &e,
                                                   Pack const &mass) const
   {
     PackedCorners v, gain;
+    Pack share[4];
     Pack speed2 = 0.0;
     for (int k = 0; k < 4; ++k)
     {
       v.x[k] = own(block, CornerColumn + 2 * k);
       v.y[k] = own(block, CornerColumn + 2 * k + 1);
       gain.x[k] = gain.y[k] = 0.0;
-      speed2 += v.x[k] * v.x[k] + v.y[k] * v.y[k];
+      Pack const square = v.x[k] * v.x[k] + v.y[k] * v.y[k];
+      if (!stage.aboutAxis())
+      {
+        speed2 += square;
+        continue;
+      }
+      share[k] = packOf([&](int lane) { return stage.share(block.cell[lane], k); });
+      speed2 += (4.0 * share[k]) * square;
     }
     Pack const per_mass = 1.0 / mass;
-    advect(0.25 * (e.outflow[1] - e.outflow[3]), per_mass, {{0, 1, 3, 2}, 3, 1}, beyond, v, gain);
-    advect(0.25 * (e.outflow[2] - e.outflow[0]), per_mass, {{0, 3, 1, 2}, 0, 2}, beyond, v, gain);
+    if (stage.aboutAxis())
+      advectShares(block, share, e.outflow, per_mass, beyond, v, gain);
+    else
+    {
+      advect(0.25 * (e.outflow[1] - e.outflow[3]), per_mass, {{0, 1, 3, 2}, 3, 1}, beyond, v, gain);
+      advect(0.25 * (e.outflow[2] - e.outflow[0]), per_mass, {{0, 3, 1, 2}, 0, 2}, beyond, v, gain);
+    }
     for (int k = 0; k < 4; ++k)
     {
       storePack(stage.at(IncrementColumn + 2 * k, block.first), gain.x[k]);

@@ -30,8 +30,9 @@ struct SweptNodesFunctor
     for (int j = first; j < end; ++j)
     {
       int const cell = stage.item[j] >> 2;
-      double const *increment = stage.at(IncrementColumn + 2 * (stage.item[j] & 3), cell);
-      g.four_mass += *stage.at(NewMass, cell);
+      int const corner = stage.item[j] & 3;
+      double const *increment = stage.at(IncrementColumn + 2 * corner, cell);
+      g.four_mass += stage.fourShares(cell, corner) * *stage.at(NewMass, cell);
       g.gain[0] += increment[0];
       g.gain[1] += increment[stage.stride];
     }
@@ -53,7 +54,7 @@ struct SweptNodesFunctor
       {
         if (stage.dof_node(pair, corner) != dof || (pure < 0 && stage.isRigid(stage.pair_material[pair])))
           continue;
-        g.four_mass += stage.record1(pair, Mass);
+        g.four_mass += stage.fourShares(cell, corner) * stage.record1(pair, Mass);
         if (pure >= 0)
           g.gain += {increment[0], increment[stage.stride]};
       }
@@ -141,7 +142,10 @@ struct SweptNodesFunctor
     {
       int const item = stage.item[stage.first_item[first] + i];
       double const *increment = stage.at(IncrementColumn + 2 * (item & 3), item >> 2);
-      plain.four_mass += loadPack(stage.at(NewMass, item >> 2));
+      Pack mass = loadPack(stage.at(NewMass, item >> 2));
+      if (stage.aboutAxis())
+        mass = mass * packOf([&](int lane) { return stage.fourShares((item >> 2) + lane, item & 3); });
+      plain.four_mass += mass;
       plain.gain_x += loadPack(increment);
       plain.gain_y += loadPack(increment + stage.stride);
     }

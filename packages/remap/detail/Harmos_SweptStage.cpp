@@ -102,8 +102,8 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
       node_condition(in.conditions.node_index.data()), condition(in.conditions.condition.data()),
       first_pair(in.pairs.offset.data()), pair_material(in.pairs.material.data()),
       first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node), materials(in.materials.data()),
-      record(in.state.record), half(in.half), kinetic(kinetic_before.data()), flags(classes.flags.data()),
-      pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
+      record(in.state.record), share(in.share.part), half(in.half), kinetic(kinetic_before.data()),
+      flags(classes.flags.data()), pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
       node_final(classes.node_final.data()), node_sweep(classes.node_sweep.data()), mask(window.mask),
       stride(window.stride), columns(window.columns.data()), block(window.block.data()), spread(window.spread),
       record1(record_after), velocity1(velocity_after), kinetic1(kinetic_after.data())

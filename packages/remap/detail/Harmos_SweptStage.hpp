@@ -104,6 +104,7 @@ struct SweptStage
   RowPointer<int, 4> dof_node;
   Material const *materials;
   RowPointer<double, num_pair_fields> record; // before
+  RowPointer<double, 4> share;                // axisymmetric: Input::share
   RowPointer<double, 2> half;
   double const *kinetic; // kinetic energy per mass of the pairs; null: not carried
 
@@ -137,6 +138,12 @@ struct SweptStage
   KOKKOS_FORCEINLINE_FUNCTION bool sameBeyond(int cell, int face) const
   {
     return (flags[cell] & SameBeyondBit << face) != 0;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION bool aboutAxis() const { return geometry == Geometry::Axisymmetric; }
+  /// Four times the part of a cell's mass that a corner takes.
+  KOKKOS_FORCEINLINE_FUNCTION double fourShares(int c, int corner) const
+  {
+    return aboutAxis() ? 4.0 * share(c, corner) : 1.0;
   }
   KOKKOS_FORCEINLINE_FUNCTION bool isRigid(int material) const { return materials[material].rigid_body >= 0; }
 };

@@ -303,8 +303,9 @@ inline Totals totals(Mesh const &mesh, CellMaterialPairs const &pairs, View<doub
     {
       int const dof = pairs.dof_node(pair, k);
       Vector2 const v{velocity(dof, 0), velocity(dof, 1)};
-      t.momentum += 0.25 * m * v;
-      t.kinetic += 0.125 * m * dot(v, v);
+      double const share = mesh.corner_share(pairs.cell(pair), k);
+      t.momentum += share * m * v;
+      t.kinetic += 0.5 * share * m * dot(v, v);
     }
   }
   return t;
