@@ -40,7 +40,8 @@ PairCounts countPairs(Scene const &scene, CycleState const &s)
         for (int k = 0; k < 4; ++k)
         {
           int const dof = pairs.dof_node(pair, k), node = mesh.cell_node(cell, k);
-          double const part = mesh.corner_share(cell, k) * record(pair, Mass) * norm(Vector2{velocity(dof, 0), velocity(dof, 1)});
+          double const part =
+              mesh.corner_share(cell, k) * record(pair, Mass) * norm(Vector2{velocity(dof, 0), velocity(dof, 1)});
           speed += part;
           moment += part * norm(Vector2{mesh.node_position(node, 0), mesh.node_position(node, 1)});
         }

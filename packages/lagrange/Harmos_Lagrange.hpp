@@ -122,7 +122,8 @@ void prepareWork(CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_no
 void computeNodeAltitudes(Mesh const &mesh, LagrangeWork &work);
 
 /// Lumped mass of the dof nodes: each deformable pair's mass goes to its four by mesh.corner_share (planar a quarter,
-/// axisymmetric the integral of r N_I dA over that of r dA), gathered in the order of mesh.node_cell. Rigid materials give none. predictVelocities does the same on its way.
+/// axisymmetric the integral of r N_I dA over that of r dA), gathered in the order of mesh.node_cell. Rigid materials
+/// give none. predictVelocities does the same on its way.
 void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                     PairState const &state, View<Material *> const &materials, LagrangeWork &work);
 
@@ -132,13 +133,12 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
 /// Axisymmetric (x = r, y = z, per radian): V B_I = integral of r grad N_I dA, and the hoop stress acts on the integral
 /// of N_I dA in addition (detail/Harmos_RingQuadrature.hpp): f_I . v_I sums to - m sv sigma : D, tr D = V'/V.
 /// Viscosity in compression (theta = tr D < 0, at v^{n-1/2}): q = rho (c1 c L |theta| + c2 L^2 theta^2), L^2 the cell's
-/// area, c the longitudinal sound speed. p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2), theta of either sign: work
-/// with v_mean leaves the internal energy half a step behind the specific volume, and a pressure that lags drives waves
-/// (doc/theory/lagrange.md).
-/// Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C = kappa m c / (4 L), gamma_I = Gamma_I - (sum_J Gamma_J x_J) .
-/// B_I, Gamma = (1, -1, 1, -1): orthogonal to linear fields.
-/// Flanagan & Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann & Richtmyer, J. Appl. Phys. 21
-/// (1950) 232; Landshoff, LA-1930 (1955).
+/// area, c the longitudinal sound speed. p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2), theta of either sign:
+/// work with v_mean leaves the internal energy half a step behind the specific volume, and a pressure that lags drives
+/// waves (doc/theory/lagrange.md). Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C = kappa m c / (4 L), gamma_I =
+/// Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1): orthogonal to linear fields. Flanagan & Belytschko,
+/// Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann & Richtmyer, J. Appl. Phys. 21 (1950) 232; Landshoff,
+/// LA-1930 (1955).
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work);
 
@@ -217,8 +217,8 @@ FailureReport failPairs(Mesh const &mesh, Kinematics kinematics, CellMaterialPai
 /// dt = courant l / (Q + sqrt(Q^2 + c^2)), Q = (c1 c L + c2 L^2 max(-theta, 0)) / l, l = area / longest mid-line: the
 /// altitude of a parallelogram. There the scheme's fastest plane wave has omega = 2 c / l exactly, whatever its
 /// direction; and dt <= largest_travel l / |v| over the dof nodes that are not light. Rigid pairs: travel alone.
-/// A free fragment of a single cell without shear stiffness is stable to courant = 0.7 only, on an axis to 0.56:
-/// omega^2 = (8 + 40/9) c^2 / l^2 of a square with quarters of its mass at the corners.
+/// A free fragment of a single square cell without shear stiffness is stable to courant = 0.7 only (omega^2 = 8 c^2 /
+/// l^2), on an axis to 0.63 (10 c^2 / l^2).
 /// No pair at all: dt = +infinity, cell -1.
 TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                              View<Material *> const &materials, LagrangeOptions const &options,

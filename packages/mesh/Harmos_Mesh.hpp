@@ -25,23 +25,23 @@ struct Rows
 struct Mesh
 {
   Geometry geometry = Geometry::Planar; // setGeometry
-  int num_cells = 0; // owned and halo
+  int num_cells = 0;                    // owned and halo
   int num_nodes = 0;
   int num_owned_cells = 0;
   int halo = 0; // layers of vertex neighbours around the owned cells that this rank holds
 
-  View<double *[2]> node_position;  // [length]
-  View<int *[4]> cell_node;         // counter-clockwise
-  View<double *> cell_area;         // in the plane [length^2]
-  View<double *> cell_volume;       // planar: cell_area itself; axisymmetric: integral of r dA, per radian [length^3]
-  CornerShares corner_share;        // of the mass of a pair; a mesh that moves with its material keeps those it began with
-  View<int *[4]> face_neighbour;    // 4 * cell + its face number; -1: none on this rank (domain boundary or edge of the halo)
-  View<int *[4]> face_boundary;     // number of the boundary that the face lies on, -1: none
-  Rows cell_neighbour;              // cell -> cells that share a node with it, without itself, ascending
-  Rows node_cell;                   // node -> 4 * cell + the node's corner number there, ascending
-  View<int *> cell_depth;           // 0: owned; k: in the k-th halo layer
-  View<int *> node_depth;           // 0: touches an owned cell; else the least depth of its cells
-  View<int *> node_owned;           // 1 where this rank owns the node (lowest owned-cell rule); sums over nodes count it once
+  View<double *[2]> node_position; // [length]
+  View<int *[4]> cell_node;        // counter-clockwise
+  View<double *> cell_area;        // in the plane [length^2]
+  View<double *> cell_volume;      // planar: cell_area itself; axisymmetric: integral of r dA, per radian [length^3]
+  CornerShares corner_share;       // of a pair's mass; a mesh that moves with it keeps them
+  View<int *[4]> face_neighbour;   // 4 * cell + its face number; -1: none here (domain boundary, edge of the halo)
+  View<int *[4]> face_boundary;    // number of the boundary that the face lies on, -1: none
+  Rows cell_neighbour;             // cell -> cells that share a node with it, without itself, ascending
+  Rows node_cell;                  // node -> 4 * cell + the node's corner number there, ascending
+  View<int *> cell_depth;          // 0: owned; k: in the k-th halo layer
+  View<int *> node_depth;          // 0: touches an owned cell; else the least depth of its cells
+  View<int *> node_owned;          // 1 where this rank owns the node (lowest owned cell); sums count it once
   View<long long *> cell_global;
   View<long long *> node_global;
 };

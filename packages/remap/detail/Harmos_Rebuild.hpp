@@ -23,8 +23,8 @@ Rebuilt rebuild(Input const &in, Kinematics kinematics, Classes const &classes, 
                 Acceptors const &acceptors);
 
 /// New velocities of the dof nodes that are not final after stage 1: the mean of the corner velocities around, weighted
-/// by mass (the corner's share of each pair's); as after stage 1 where nothing around changed in stage 2. Node conditions are
-/// imposed on what changed. Final nodes are copied, unless the velocities are those of stage 1 in place.
+/// by mass (the corner's share of each pair's); as after stage 1 where nothing around changed in stage 2. Node
+/// conditions are imposed on what changed. Final nodes are copied, unless the velocities are those of stage 1 in place.
 ///
 /// \param sums The impulse of the node conditions at owned nodes, sum m (v_imposed - v), and the kinetic energy after
 ///             are added.
@@ -35,8 +35,8 @@ void nodalVelocities(Input const &in, Classes const &classes, StageState const &
 double kineticEnergy(Input const &in, CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,
                      View<double *[2]> const &velocity);
 
-/// Lump masses by the shares of the mesh that the remap has come to instead of those of the mesh where it began: pair by
-/// pair (reshare), then the nodal means, with node conditions; sums as in nodalVelocities.
+/// Lump masses by the shares of the mesh that the remap has come to instead of those of the mesh where it began: pair
+/// by pair (reshare), then the nodal means, with node conditions; sums as in nodalVelocities.
 void moveShares(Input const &in, Rebuilt &rebuilt, SweptSums &sums);
 
 /// Add what the remap carried of kinetic energy and the new velocities do not hold to the pairs' internal energy.
