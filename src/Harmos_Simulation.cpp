@@ -23,7 +23,7 @@ namespace
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
-  double sums[11] = {remap.kinetic_loss,
+  double sums[12] = {remap.kinetic_loss,
                      remap.overlap_volume,
                      remap.void_volume,
                      remap.outflow_mass,
@@ -33,8 +33,9 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
                      static_cast<double>(remap.merged),
                      static_cast<double>(report.reconstruction.unfinished_cells),
                      static_cast<double>(report.update.out_of_range),
-                     remap.returned_heat};
-  exchange.sum(sums, 11);
+                     remap.returned_heat,
+                     static_cast<double>(report.light_nodes)};
+  exchange.sum(sums, 12);
   l.external_work += report.external_work;
   l.contact_loss += report.constraint.contact_loss;
   l.external_impulse_x += report.external_impulse[0];
@@ -52,7 +53,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.returned_heat += sums[10];
   l.unconverged_cycles += report.constraint.converged ? 0.0 : 1.0;
   l.broken_bonds += report.broken_bonds;
-  l.light_nodes += static_cast<double>(report.light_nodes);
+  l.light_nodes += sums[11];
   l.repeats += report.repeats;
   l.restored_volume += report.restored_volume;
 }

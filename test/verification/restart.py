@@ -144,6 +144,14 @@ def interrupt(with_signal):
     clean(whole, r)
 
 
+def test_light_nodes_are_counted_over_all_ranks():
+    """The sums of a checkpoint are the same on all ranks: else its checksum is not that of what was written."""
+    coarse = {"mesh/x/cells": 50, "mesh/y/cells": 120}
+    part = harmos("whipple_high/deck.yaml", {**coarse, **stop({}, 300), "output/checkpoint/at_end": "true"}, ranks=2)
+    extra = ["--restart", str(newest_checkpoint(part.directory))]
+    clean(harmos("whipple_high/deck.yaml", {**coarse, **stop({}, 305)}, ranks=2, directory=part.directory, extra=extra))
+
+
 def test_sigterm_writes_a_checkpoint_and_the_run_goes_on():
     interrupt(signal.SIGTERM)
 
