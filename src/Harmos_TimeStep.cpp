@@ -4,9 +4,10 @@
 #include "Harmos_ContactState.hpp"
 #include "Harmos_PhaseTimer.hpp"
 #include "Harmos_PrescribedCycle.hpp"
+#include "Harmos_RigidMotion.hpp"
+#include "Harmos_TargetMesh.hpp"
 
 #include <Harmos_MeshBuilder.hpp>
-#include <Harmos_Paint.hpp>
 #include <Harmos_StateExchange.hpp>
 
 #include <cmath>
@@ -19,8 +20,6 @@ namespace
 
 constexpr int most_repeats = 8;
 constexpr double largest_growth = 1.05; // of dt from one cycle to the next
-constexpr double largest_shared_aspect =
-    2.125; // largestAspectRatio of a rectangle with sides 1 : 4 (doc/decisions/0003)
 
 /// Work of gravity with v_mean = (v^{n-1/2} + v^{n+1/2})/2 on deformable bodies, owned nodes. [J/m]
 double gravityWork(Scene const &scene, CycleState const &s, double dt)
@@ -43,49 +42,6 @@ double gravityWork(Scene const &scene, CycleState const &s, double dt)
       },
       sum);
   return sum;
-}
-
-/// Free rigid bodies fall; the others keep their motion.
-std::vector<RigidBody> predictBodies(std::vector<RigidBody> bodies, Vector2 const &gravity, double dt)
-{
-  for (RigidBody &body : bodies)
-    if (body.motion == RigidMotion::Free)
-      body.velocity += dt * gravity;
-  return bodies;
-}
-
-void moveBodies(std::vector<RigidBody> &bodies, double dt)
-{
-  for (RigidBody &body : bodies)
-  {
-    body.centre += dt * body.velocity;
-    body.angle += dt * body.angular_velocity;
-  }
-}
-
-/// Set the rigid velocities after a remap. In `single` the nodes that a rigid material has newly reached are stopped,
-/// or driven: what that does to the deformable materials is work and impulse of the rigid bodies.
-void holdRigidNodes(Scene const &scene, CycleState &s, PredictionSums &prediction)
-{
-  if (scene.kinematics != Kinematics::Single || s.bodies.empty())
-  {
-    setRigidVelocities(scene, s);
-    return;
-  }
-  int const materials = static_cast<int>(scene.materials.extent(0));
-  MaterialSums const before = materialSums(scene.mesh, s.pairs, s.state.record, s.state.velocity, materials);
-  setRigidVelocities(scene, s);
-  MaterialSums const after = materialSums(scene.mesh, s.pairs, s.state.record, s.state.velocity, materials);
-  std::vector<bool> rigid(materials, false);
-  for (RigidBody const &body : s.bodies)
-    rigid[body.material] = true;
-  for (int m = 0; m < materials; ++m)
-    if (!rigid[m])
-    {
-      prediction.driven_impulse +=
-          Vector2{after(m, SumMomentumX) - before(m, SumMomentumX), after(m, SumMomentumY) - before(m, SumMomentumY)};
-      prediction.driven_work += after(m, SumKineticEnergy) - before(m, SumKineticEnergy);
-    }
 }
 
 /// What must not exceed one, over all ranks: the travel of a node over 0.9 of the least altitude around it, and the
@@ -122,54 +78,6 @@ void bookExternal(Scene const &scene, CycleState const &s, std::vector<RigidBody
     }
 }
 
-bool samePoses(std::vector<RigidBody> const &a, std::vector<RigidBody> const &b)
-{
-  bool same = a.size() == b.size();
-  for (std::size_t i = 0; i < a.size() && same; ++i)
-    same = a[i].centre[0] == b[i].centre[0] && a[i].centre[1] == b[i].centre[1] && a[i].angle == b[i].angle;
-  return same;
-}
-
-/// What the rigid bodies fill at their new poses; where none has moved, the rows of the last cycle.
-RigidRows const &rigidRows(Scene const &scene, CycleState &state)
-{
-  if (state.rigid_rows.offset.extent(0) > 0 && samePoses(state.bodies, state.rigid_pose))
-    return state.rigid_rows;
-  std::vector<Shape> shapes;
-  std::vector<int> materials;
-  for (std::size_t b = 0; b < state.bodies.size(); ++b)
-  {
-    RigidBody const &start = scene.rigid_start[b];
-    RigidBody const &body = state.bodies[b];
-    shapes.push_back(scene.rigid_shape[b].moved(body.centre - start.centre, body.angle - start.angle));
-    materials.push_back(body.material);
-  }
-  if (!shapes.empty())
-  {
-    PaintedRows const painted = rigidVolumes(scene.mesh, shapes, materials);
-    state.rigid_rows = {painted.offset, painted.material, painted.volume_fraction, painted.centroid};
-    state.rigid_pose = state.bodies;
-  }
-  return state.rigid_rows;
-}
-
-/// Nodes of a turning rigid block: on their circles, not on the tangents along which velocities would move them.
-void turnRigidNodes(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, RigidBody const &body_n,
-                    RigidBody const &body, double dt)
-{
-  auto const position = mesh.node_position;
-  double const c = std::cos(dt * body.angular_velocity), s = std::sin(dt * body.angular_velocity);
-  Kokkos::parallel_for(
-      "Harmos::turnRigidNodes", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
-        if (dof_nodes.material(dof) != body.material)
-          return;
-        int const node = dof_nodes.node(dof);
-        double const x = position(node, 0) - body_n.centre[0], y = position(node, 1) - body_n.centre[1];
-        position(node, 0) = body.centre[0] + (c * x - s * y);
-        position(node, 1) = body.centre[1] + (s * x + c * y);
-      });
-}
-
 /// Node positions of a body-fitted mesh follow their (only) dof node, those of a turning rigid block its pose; the
 /// velocity becomes v^{n+1/2}.
 void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials, std::vector<RigidBody> const &bodies_n,
@@ -199,98 +107,7 @@ void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials,
   updateVolumes(mesh);
 }
 
-/// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2. Owned cells.
-double largestAspectRatio(Mesh const &mesh)
-{
-  double largest = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::largestAspectRatio", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell, double &most) {
-        Quadrilateral const q = cellQuadrilateral(mesh, cell);
-        double const diagonal = Math::max(dot(q[2] - q[0], q[2] - q[0]), dot(q[3] - q[1], q[3] - q[1]));
-        if (mesh.cell_depth(cell) == 0)
-          most = Math::max(most, 0.5 * diagonal / mesh.cell_area(cell));
-      },
-      Kokkos::Max<double>(largest));
-  return largest;
-}
-
-/// Move the mesh to where the host code wants it. \return Where it was; extent 0: nobody wants it moved.
-View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
-{
-  if (!scene.target_mesh)
-    return {};
-  Mesh &mesh = scene.mesh;
-  View<double *[2]> const start = mesh.node_position;
-  View<double *[2]> const target("Harmos::target", mesh.num_nodes);
-  Kokkos::deep_copy(target, start);
-  scene.target_mesh(mesh, s, dt, target);
-  exchangeNodePositions(mesh, *scene.exchange, mesh.halo, target);
-  mesh.node_position = target;
-  separateGeometry(mesh);
-  updateGeometry(mesh);
-  if (scene.exchange->max(countInvertedCells(mesh)) > 0.0)
-    throw std::runtime_error("the target mesh has cells that are not strictly convex");
-  if (scene.exchange->size() > 1 && scene.exchange->max(largestAspectRatio(mesh)) > largest_shared_aspect)
-    throw std::runtime_error("the target mesh has cells of an aspect ratio above 4, which run on one rank only");
-  computeNodeAltitudes(mesh, s.work);
-  s.rigid_rows = {}; // they belong to the cells
-  return start;
-}
-
-/// On a mesh that has moved under the state: its stable step, and the cells of the tracers.
-void settleOnTarget(Scene const &scene, CycleState &s, TimeStepLimit &next)
-{
-  prepareWork(s.pairs, s.dof_nodes, s.work);
-  computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
-  next = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
-  for (std::vector<Tracer> *const tracers : {&s.tracers, &s.bond_tracers})
-  {
-    std::vector<Vector2> points;
-    for (Tracer const &tracer : *tracers)
-      points.push_back(tracer.position);
-    std::vector<long long> const cell = locatePoints(scene.mesh, points, *scene.exchange);
-    for (std::size_t i = 0; i < cell.size(); ++i)
-      (*tracers)[i].cell = cell[i];
-  }
-}
-
-/// What has no meaning together. \throw std::runtime_error
-void checkTarget(Scene const &scene)
-{
-  if (!scene.target_mesh)
-    return;
-  if (scene.kinematics == Kinematics::Lagrangian)
-    throw std::runtime_error("a target mesh means nothing in lagrangian kinematics: the mesh is the material's");
-  if (scene.prescribed.kind != FieldKind::None)
-    throw std::runtime_error("a target mesh means nothing with a prescribed field, which keeps the cells' volumes");
-}
-
 } // namespace
-
-void setRigidVelocities(Scene const &scene, CycleState &s)
-{
-  if (s.bodies.empty())
-    return;
-  auto const mesh = scene.mesh;
-  auto const pairs = s.pairs;
-  auto const velocity = s.state.velocity;
-  for (RigidBody const &body : s.bodies)
-  {
-    Kokkos::parallel_for(
-        "Harmos::setRigidVelocities", RangePolicy(0, pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
-          if (pairs.material(pair) != body.material)
-            return;
-          for (int k = 0; k < 4; ++k)
-          {
-            int const node = mesh.cell_node(pairs.cell(pair), k);
-            Vector2 const v = body.velocityAt({mesh.node_position(node, 0), mesh.node_position(node, 1)});
-            velocity(pairs.dof_node(pair, k), 0) = v[0];
-            velocity(pairs.dof_node(pair, k), 1) = v[1];
-          }
-        });
-  }
-}
 
 PointField pointField(Scene const &scene, CycleState const &s)
 {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_TargetMesh.hpp"
+
+#include <Harmos_MeshBuilder.hpp>
+#include <Harmos_StateExchange.hpp>
+
+#include <stdexcept>
+
+namespace Harmos
+{
+namespace
+{
+
+constexpr double largest_shared_aspect =
+    2.125; // largestAspectRatio of a rectangle with sides 1 : 4 (doc/decisions/0003)
+
+/// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2. Owned cells.
+double largestAspectRatio(Mesh const &mesh)
+{
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::largestAspectRatio", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, double &most) {
+        Quadrilateral const q = cellQuadrilateral(mesh, cell);
+        double const diagonal = Math::max(dot(q[2] - q[0], q[2] - q[0]), dot(q[3] - q[1], q[3] - q[1]));
+        if (mesh.cell_depth(cell) == 0)
+          most = Math::max(most, 0.5 * diagonal / mesh.cell_area(cell));
+      },
+      Kokkos::Max<double>(largest));
+  return largest;
+}
+
+} // namespace
+
+View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
+{
+  if (!scene.target_mesh)
+    return {};
+  Mesh &mesh = scene.mesh;
+  View<double *[2]> const start = mesh.node_position;
+  View<double *[2]> const target("Harmos::target", mesh.num_nodes);
+  Kokkos::deep_copy(target, start);
+  scene.target_mesh(mesh, s, dt, target);
+  exchangeNodePositions(mesh, *scene.exchange, mesh.halo, target);
+  mesh.node_position = target;
+  separateGeometry(mesh);
+  updateGeometry(mesh);
+  if (scene.exchange->max(countInvertedCells(mesh)) > 0.0)
+    throw std::runtime_error("the target mesh has cells that are not strictly convex");
+  if (scene.exchange->size() > 1 && scene.exchange->max(largestAspectRatio(mesh)) > largest_shared_aspect)
+    throw std::runtime_error("the target mesh has cells of an aspect ratio above 4, which run on one rank only");
+  computeNodeAltitudes(mesh, s.work);
+  s.rigid_rows = {}; // they belong to the cells
+  return start;
+}
+
+void settleOnTarget(Scene const &scene, CycleState &s, TimeStepLimit &next)
+{
+  prepareWork(s.pairs, s.dof_nodes, s.work);
+  computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
+  next = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
+  for (std::vector<Tracer> *const tracers : {&s.tracers, &s.bond_tracers})
+  {
+    std::vector<Vector2> points;
+    for (Tracer const &tracer : *tracers)
+      points.push_back(tracer.position);
+    std::vector<long long> const cell = locatePoints(scene.mesh, points, *scene.exchange);
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      (*tracers)[i].cell = cell[i];
+  }
+}
+
+void checkTarget(Scene const &scene)
+{
+  if (!scene.target_mesh)
+    return;
+  if (scene.kinematics == Kinematics::Lagrangian)
+    throw std::runtime_error("a target mesh means nothing in lagrangian kinematics: the mesh is the material's");
+  if (scene.prescribed.kind != FieldKind::None)
+    throw std::runtime_error("a target mesh means nothing with a prescribed field, which keeps the cells' volumes");
+}
+
+} // namespace Harmos
