@@ -75,6 +75,10 @@ void warn(Run &run, std::string const &text);
 /// file is touched.
 void setUp(Run &run);
 
+/// The state from the checkpoint run.options.restart: the same bits that the interrupted run had.
+/// \throw std::runtime_error if the file cannot be read, or does not belong to the deck.
+void restoreState(Run &run);
+
 /// Make the folder of the results this run's own. Results of an earlier run are never overwritten unawares.
 /// \throw DeckError on all ranks alike.
 void claimDirectory(Run &run);
