@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Lagrange.hpp>
 
+#include <Harmos_CellVoid.hpp>
+#include <Harmos_Failure.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -12,7 +14,8 @@ template <Geometry geometry>
 struct CornerForceFunctor
 {
   LagrangeOptions options;
-  int num_pairs;
+  CellMaterialPairs pairs;
+  PairState state;
   int const *material_of;
   int const *cell_of;
   Material const *materials;
@@ -20,6 +23,25 @@ struct CornerForceFunctor
   RowPointer<double, 2> position, velocity;
   RowPointer<double, num_pair_fields> record;
   RowPointer<double, 8> corner_force;
+
+  /// The tension that each pair bears: failed ones none, the others what they would not fail at. failPairs leaves none
+  /// beyond, but the remap mixes: of vapour and condensed matter, both without pressure, the mean energy and volume may
+  /// stand at the cold curve's deepest tension.
+  KOKKOS_FORCEINLINE_FUNCTION Pack tensileStrength(Material const &material, int const pair[pack_width],
+                                                   int const cell[pack_width]) const
+  {
+    if (!state.tracks_damage || !canFail(material))
+      return no_limit;
+    double const sound = Math::min(material.failure.spall_pressure, material.failure.spall_stress);
+    return packOf(
+        [&](int lane)
+        {
+          double const damage = state.damage(pair[lane]);
+          bool const failed =
+              damage >= least_failed_open && isFailed(material, damage, isOpen(pairs, state.record, cell[lane]));
+          return failed ? 0.0 : sound;
+        });
+  }
 
   KOKKOS_FORCEINLINE_FUNCTION void compute(int number, int const pair[pack_width], unsigned lanes) const
   {
@@ -29,16 +51,16 @@ struct CornerForceFunctor
       cell[lane] = cell_of[pair[lane]];
     detail::Corners<Pack> f = {};
     if (material.rigid_body < 0)
-      f = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair),
-                                       detail::packedCorners(cell_node, position, cell),
-                                       detail::packedCorners(dof_node, velocity, pair));
+      f = detail::pairForces<geometry>(
+          material, options, detail::loadPackedRecord(record, pair), detail::packedCorners(cell_node, position, cell),
+          detail::packedCorners(dof_node, velocity, pair), tensileStrength(material, pair, cell));
     Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
     storeRows(row, lanes, [&](int lane) { return corner_force.row(pair[lane]); });
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int block) const
   {
-    detail::forPackedPairs(material_of, num_pairs, block,
+    detail::forPackedPairs(material_of, pairs.num_pairs, block,
                            [&](int number, int const *pair, unsigned lanes) { compute(number, pair, lanes); });
   }
 };
@@ -48,7 +70,7 @@ void launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &s
             LagrangeOptions const &options, LagrangeWork &work)
 {
   Kokkos::parallel_for("Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)),
-                       CornerForceFunctor<geometry>{options, pairs.num_pairs, pairs.material.data(), pairs.cell.data(),
+                       CornerForceFunctor<geometry>{options, pairs, state, pairs.material.data(), pairs.cell.data(),
                                                     materials.data(), mesh.cell_node, pairs.dof_node,
                                                     mesh.node_position, state.velocity, state.record,
                                                     work.corner_force});

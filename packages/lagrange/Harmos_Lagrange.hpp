@@ -134,11 +134,11 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
 /// of N_I dA in addition (detail/Harmos_RingQuadrature.hpp): f_I . v_I sums to - m sv sigma : D, tr D = V'/V.
 /// Viscosity in compression (theta = tr D < 0, at v^{n-1/2}): q = rho (c1 c L |theta| + c2 L^2 theta^2), L^2 the cell's
 /// area, c the longitudinal sound speed. p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2), theta of either sign:
-/// work with v_mean leaves the internal energy half a step behind the specific volume, and a pressure that lags drives
-/// waves (doc/theory/lagrange.md). Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C = kappa m c / (4 L), gamma_I =
-/// Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1): orthogonal to linear fields. Flanagan & Belytschko,
-/// Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann & Richtmyer, J. Appl. Phys. 21 (1950) 232; Landshoff,
-/// LA-1930 (1955).
+/// the internal energy lags half a step (decision 0009). p = 0 in tension that the pair cannot bear: any where it has
+/// failed, beyond its spall strength elsewhere (decision 0006). Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C =
+/// kappa m c / (4 L), gamma_I = Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1): orthogonal to linear
+/// fields. Flanagan & Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann & Richtmyer, J. Appl. Phys.
+/// 21 (1950) 232; Landshoff, LA-1930 (1955).
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work);
 

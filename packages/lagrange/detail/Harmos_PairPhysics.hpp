@@ -24,10 +24,12 @@ struct PairRecord
 
 constexpr double largest_energy_lag = 0.5; // of the pressure, that an expansion may take from it
 
-/// Corner forces on the nodes (equations: computeCornerForces).
+/// Corner forces on the nodes (equations: computeCornerForces). In tension beyond `tensile_strength` the pressure is
+/// zero.
 template <Geometry geometry, class T>
 KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, LagrangeOptions const &options,
-                                                  PairRecord<T> const &pair, Corners<T> const &x, Corners<T> const &v)
+                                                  PairRecord<T> const &pair, Corners<T> const &x, Corners<T> const &v,
+                                                  T const &tensile_strength)
 {
   auto const b = cellGradient<geometry>(x);
   MeanGradient<T> const &plane = planeOf(b);
@@ -47,8 +49,8 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, Lagr
   T const scaled_volume = scaled_mass * pair.specific_volume;
   // The internal energy is behind by `energy_lag`: de = - p sv tr D dt, dp = Gamma de / sv. In tension the lag damps.
   T const gamma_lag = options.energy_lag * gruneisenParameter(material, pair.specific_volume);
-  T const pressure =
-      eos.pressure - Math::max(eos.pressure, T(0.0)) * Math::min(T(gamma_lag * trace), T(largest_energy_lag));
+  T const p = select(eos.pressure < T(-tensile_strength), T(0.0), eos.pressure);
+  T const pressure = p - Math::max(p, T(0.0)) * Math::min(T(gamma_lag * trace), T(largest_energy_lag));
   T const spherical = scaled_volume * pressure + scaled_mass * sv_q;
   ScaledStress<T> const stress = {spherical - scaled_volume * pair.deviator.xx,
                                   spherical - scaled_volume * pair.deviator.yy, -(scaled_volume * pair.deviator.xy),

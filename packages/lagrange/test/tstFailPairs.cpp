@@ -29,6 +29,23 @@ Scene trackedScene(std::vector<Material> const &laws, std::function<std::vector<
   return s;
 }
 
+/// Sum of |f| over the corners of the first pair when it is at rest at `specific_volume`, full of its cell, and has
+/// this damage.
+double forceAtRest(double specific_volume, double damage)
+{
+  Scene s = trackedScene({brittle()}, full);
+  auto const r = onHost(s.state.record);
+  r(0, SpecificVolume) = specific_volume;
+  Kokkos::deep_copy(s.state.record, r);
+  Kokkos::deep_copy(s.state.damage, damage);
+  computeCornerForces(s.mesh, s.pairs, s.state, s.materials, s.options, s.work);
+  auto const f = onHost(s.work.corner_force);
+  double sum = 0.0;
+  for (int i = 0; i < 8; ++i)
+    sum += std::fabs(f(0, i));
+  return sum;
+}
+
 /// One step of dt = 1 in which the left cell is strained by `rate` and the right one moves along.
 FailureReport strainLeftCell(Scene &s, double rate, Kinematics kinematics = Kinematics::Xfem)
 {
@@ -105,6 +122,15 @@ TEST(FailPairs, FailedPairCompressed_closesItsVoidBeforeItFeelsPressure)
   EXPECT_GT(pressure(s, brittle(), 0), 0.0);
   EXPECT_EQ(onHost(s.pairs.cell_kind)(0), static_cast<int>(PureCell));
   EXPECT_EQ(r(0, DeviatorXX), 0.0);
+}
+
+TEST(FailPairs, TensionThatThePairCannotBear_pullsAtNoNode)
+{
+  EXPECT_GT(forceAtRest(0.501, 0.0), 0.01); // p = -0.036 Pa
+  EXPECT_EQ(forceAtRest(0.501, failed_damage), 0.0);
+  EXPECT_EQ(forceAtRest(0.55, 0.0), 0.0); // p = -1.6 Pa: what the remap has mixed
+  EXPECT_GT(forceAtRest(0.49, failed_damage), 0.1);
+  EXPECT_EQ(forceAtRest(0.49, failed_damage), forceAtRest(0.49, 0.0));
 }
 
 TEST(FailPairs, OtherMaterialsOfTheCell_areLeftAlone)
