@@ -25,6 +25,9 @@ struct RemovalPlan
   }
 };
 
+constexpr double sliver_penalty = 0.1; // of its volume times its line's misfit
+constexpr double thin_volume = 1e-3;   // of the cell: a line that cuts it off passes near the cell's border
+
 /// Normal of the line that divides a polygon into two sets of components.
 struct CutNormal
 {
@@ -56,7 +59,7 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
     if (!(dot(fallback, fallback) > 0.5))
       fallback = {1.0, 0.0};
     LeastSquaresLine const line = leastSquaresLine(field, components, polygon, inside, outside, fallback);
-    return {line.normal, 0.1 * volume * line.misfit, line.converged};
+    return {line.normal, sliver_penalty * volume * line.misfit, line.converged};
   }
   MomentOfFluidLine const line = momentOfFluidLine(polygon, volume, centroid, components.weight);
   return {cut_inside ? line.normal : -line.normal, 0.0, line.converged};
@@ -99,9 +102,30 @@ KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, C
   return plan;
 }
 
+/// Part of a sliver's volume that is the penalty of a line that cuts it off the whole cell, at least.
+///
+/// Such a line passes the cell at a corner or along a face, so that a quarter or more of some vertex neighbour lies
+/// behind it (a whole one where faces run on straight). Where the neighbours hold little of the sliver's set, whichever
+/// way it is counted, no line fits: the mean of (fraction behind - fraction)^2 is (1/4 - fraction)^2 / 8 or more. Zero
+/// where the cell lacks neighbours.
+KOKKOS_INLINE_FUNCTION double leastSliverPenalty(ReconstructionField const &field, CellComponents const &components,
+                                                 ComponentSet others)
+{
+  constexpr double behind = 0.25;
+  constexpr int usual_count = 8;
+  Rows const &neighbours = field.mesh.cell_neighbour;
+  int const begin = neighbours.offset(components.cell);
+  if (neighbours.offset(components.cell + 1) - begin != usual_count)
+    return 0.0;
+  double least = behind;
+  for (int n = begin; n < begin + usual_count; ++n)
+    least = Math::min(least, behind - (1.0 - setFraction(field, components, others, neighbours.item(n))));
+  return least > 0.0 ? sliver_penalty / usual_count * least * least : 0.0;
+}
+
 /// All orders of removal by depth-first search; the least sum of first-moment errors and sliver penalties wins, ties
-/// (within 1e-20) go to the order that comes first. Partial sums that are no better are not followed, cuts are shared
-/// by the orders that begin with them, and the last two components need one cut.
+/// (within 1e-20) go to the order that comes first. Partial sums that are no better, or cannot become so, are not
+/// followed, cuts are shared by the orders that begin with them, and the last two components need one cut.
 ///
 /// Ahn & Shashkov, J. Comput. Phys. 226 (2007) 2096-2132, with first moments in place of centroids.
 KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, CellComponents const &components,
@@ -121,7 +145,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
   rest[0] = components.all();
   candidate[0] = -1;
   error[0] = 0.0;
-  for (int depth = 0; depth >= 0;)
+  // No sum is below zero: one within a tie of it is not beaten.
+  for (int depth = 0; depth >= 0 && best.error > tie;)
   {
     bool const two_left = depth == count - 2;
     int k = candidate[depth] + 1;
@@ -134,6 +159,10 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     }
     candidate[depth] = k;
     ComponentSet const others = rest[depth] & ~(1u << k);
+    double const volume = components.volume[k];
+    if (depth == 0 && volume < Math::min(sliver, thin_volume) && best.error < 1e300 &&
+        volume * leastSliverPenalty(field, components, others) >= best.error)
+      continue;
     CutNormal const cut =
         cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon[depth], 1u << k, others);
     Division const division =

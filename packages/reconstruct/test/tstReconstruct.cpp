@@ -2,6 +2,7 @@
 #include "ReconstructScene.hpp"
 
 #include <Harmos_FractionGradient.hpp>
+#include <Harmos_LineCut.hpp>
 
 #include <gtest/gtest.h>
 
@@ -155,6 +156,45 @@ TEST(Reconstruct, thinVoidOrFoilBetweenTwoBodies_liesBetweenThem)
         EXPECT_LT(misplacedVolume(scene, result.regions, all), 1e-3 * gap) << "gap " << gap << " angle " << angle;
       }
     }
+}
+
+// What lets orders that begin with a sliver go untried (leastSliverPenalty).
+TEST(Reconstruct, lineThatCutsASliverOffACell_hasAQuarterOfAVertexNeighbourBehindIt)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> turn(0.0, 2.0 * Math::pi), exponent(-12.0, -3.0);
+  double least = 1.0;
+  for (int i = 0; i < 4000; ++i)
+  {
+    Geometry const geometry = i % 2 == 0 ? Geometry::Planar : Geometry::Axisymmetric;
+    Mesh const mesh =
+        makeMesh(i % 4 < 2 ? 5 : 3, 5, 1.0, 0.25, 1 + i); // the inner cells of three columns are near r = 0
+    int const columns = i % 4 < 2 ? 5 : 3, own = 2 * columns + columns / 2;
+    auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
+    auto const node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_node);
+    auto const volumeBehind = [&](int cell, Body const &behind)
+    {
+      Quadrilateral const quad = hostQuadrilateral(x, node, cell);
+      return moments<1>(intersection(quad, behind), quad[0], areaWeight(geometry, quad[0])).volume() /
+             volume(quad, geometry);
+    };
+    Quadrilateral const quad = hostQuadrilateral(x, node, own);
+    Region polygon;
+    for (int k = 0; k < 4; ++k)
+      polygon.push(quad[k]);
+    double const angle = turn(random);
+    Vector2 const normal{std::cos(angle), std::sin(angle)};
+    double const part = std::pow(10.0, exponent(random));
+    LineCut const cut = lineCut(polygon, normal, part * volume(quad, geometry), areaWeight(geometry, {0.0, 0.0}));
+    double most = 0.0;
+    for (int row = -1; row <= 1; ++row)
+      for (int column = -1; column <= 1; ++column)
+        if (row != 0 || column != 0)
+          most = std::max(most, volumeBehind(own + row * columns + column, {Plane2{normal, dot(normal, cut.begin)}}));
+    least = std::min(least, most);
+  }
+  EXPECT_GT(least, 0.25);
+  std::printf("least part of the fullest neighbour %.2f\n", least);
 }
 
 TEST(Reconstruct, stripOfCells_everyMethodFindsTheUprightInterface)
