@@ -20,8 +20,17 @@ void Ledger::noteErrors(double mass_error, double momentum_error, double energy_
   largest_speed_momentum = std::max(largest_speed_momentum, speed_momentum);
   largest_mass_error = std::max(largest_mass_error, mass_error);
   largest_momentum_error = std::max(largest_momentum_error, momentum_error);
-  if (largest_energy > 0.0)
-    largest_energy_error = std::max(largest_energy_error, std::fabs(energy_error) / largest_energy);
+  largest_energy_error = std::max(largest_energy_error, std::fabs(energy_error));
+}
+
+double Ledger::momentumError() const
+{
+  return largest_speed_momentum > 0.0 ? largest_momentum_error / largest_speed_momentum : 0.0;
+}
+
+double Ledger::energyError() const
+{
+  return largest_energy > 0.0 ? largest_energy_error / largest_energy : 0.0;
 }
 
 void Ledger::noteAngularMomentum(double angular_momentum, double moment)

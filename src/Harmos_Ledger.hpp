@@ -30,8 +30,8 @@ struct Ledger
   double outflow_momentum_x = 0.0, outflow_momentum_y = 0.0;
   double outflow_energy = 0.0;
   double largest_mass_error = 0.0;     // relative
-  double largest_momentum_error = 0.0; // method's definition: over sum m |v|
-  double largest_energy_error = 0.0;   // relative to the largest energy of the run
+  double largest_momentum_error = 0.0; // [N s/m]
+  double largest_energy_error = 0.0;   // [J/m]
   double largest_energy = 0.0;         // kinetic + internal [J/m]
   double largest_speed_momentum = 0.0; // sum m |v| [N s/m]
   double pair_steps = 0.0;
@@ -41,6 +41,8 @@ struct Ledger
   double light_nodes = 0.0;
   double repeats = 0.0;
   double merged = 0.0;
+  double closed_volume = 0.0;         // spurious void that was closed [m^2]
+  double greedy_cells = 0.0;          // more than five components, ordered one by one; summed over cycles
   double out_of_range = 0.0;          // pair steps outside of the equation of state's range
   double unfinished_interfaces = 0.0; // mixed cells, summed over cycles, whose line's angle met its bound of iterations
   double restored_volume = 0.0;       // prescribed field: sum of |volume given back| [m^2]
@@ -48,8 +50,14 @@ struct Ledger
   double largest_angular_drift = 0.0; // |L - L0|, over largest_moment [1]
   double largest_moment = 0.0;        // sum m |x| |v| [N s]
 
-  /// Keep the largest errors. \param energy_error [J/m] \param energy Kinetic + internal now.
+  /// Keep the largest errors. \param momentum_error [N s/m] \param energy_error [J/m]
+  /// \param energy Kinetic + internal now. \param speed_momentum sum m |v| now.
   void noteErrors(double mass_error, double momentum_error, double energy_error, double energy, double speed_momentum);
+
+  /// The largest error of the momentum over the largest sum m |v| of the run so far (the method's definition).
+  double momentumError() const;
+  /// The largest error of the energy over the largest energy of the run so far.
+  double energyError() const;
 
   /// Keep the largest drift of the angular momentum, relative to the largest sum m |x| |v| of the run so far.
   void noteAngularMomentum(double angular_momentum, double moment);

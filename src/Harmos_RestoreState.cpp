@@ -114,8 +114,6 @@ void restoreState(Run &run)
   s.bodies = scalars.bodies;
   s.time = scalars.time;
   s.cycle = scalars.cycle;
-  prepareWork(s.pairs, s.dof_nodes, s.work);
-  computeNodeAltitudes(run.scene.mesh, s.work);
   s.dt = scalars.dt;
   run.ledger = Ledger::fromValues(arrayOf(scalars, "ledger"));
   restoreTracers(run, arrayOf(scalars, "tracers"));

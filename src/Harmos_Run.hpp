@@ -75,7 +75,7 @@ void warn(Run &run, std::string const &text);
 /// file is touched.
 void setUp(Run &run);
 
-/// The state from the checkpoint run.options.restart: the same bits that the interrupted run had.
+/// The state from the checkpoint run.options.restart, before startCycle: the same bits that the interrupted run had.
 /// \throw std::runtime_error if the file cannot be read, or does not belong to the deck.
 void restoreState(Run &run);
 

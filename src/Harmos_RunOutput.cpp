@@ -57,8 +57,7 @@ LedgerErrors ledgerErrors(Geometry geometry, Ledger const &l, Totals const &t)
   e.mass = std::fabs(t.mass + l.outflow_mass - l.mass0) / std::max(l.mass0, 1e-300);
   double const px = t.momentum_x - l.momentum0_x - l.external_impulse_x + l.outflow_momentum_x;
   double const py = t.momentum_y - l.momentum0_y - l.external_impulse_y + l.outflow_momentum_y;
-  double const scale = std::max(t.speed_momentum, l.largest_speed_momentum);
-  e.momentum = scale > 0.0 ? (geometry == Geometry::Planar ? std::hypot(px, py) : std::fabs(py)) / scale : 0.0;
+  e.momentum = geometry == Geometry::Planar ? std::hypot(px, py) : std::fabs(py);
   e.energy = t.kinetic_energy + t.internal_energy - l.external_work + l.contact_loss + l.remap_loss + l.outflow_energy -
              l.energy0;
   return e;

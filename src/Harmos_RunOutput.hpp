@@ -99,7 +99,7 @@ std::vector<std::string> materialNames(Deck const &deck);
 struct LedgerErrors
 {
   double mass = 0.0;     // relative
-  double momentum = 0.0; // over sum m |v|; axisymmetric: axial alone
+  double momentum = 0.0; // [N s/m]; axisymmetric: axial alone
   double energy = 0.0;   // [J/m]
 };
 LedgerErrors ledgerErrors(Geometry geometry, Ledger const &ledger, Totals const &totals);

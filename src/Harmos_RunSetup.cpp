@@ -239,7 +239,7 @@ void setUp(Run &run)
   try
   {
     Mesh const mesh = makeLocalMesh(run);
-    run.scene = makeScene(run.deck, run.whole, mesh, *run.exchange);
+    run.scene = makeScene(run.deck, mesh, *run.exchange);
     part = "bodies: ";
     if (fresh)
       run.state = makeInitialState(run.deck, run.whole, run.scene);
@@ -266,16 +266,19 @@ void setUp(Run &run)
       throw DeckError("--restart " + run.options.restart + ": " + error.what());
     }
   }
+  double const restored_dt = run.state.dt;
+  ReconstructionReport const reconstruction = startCycle(run.scene, run.state);
+  if (!fresh)
+    run.state.dt = restored_dt;
   else
   {
     refuseAbsurdSpeeds(run);
-    setFirstTimeStep(run.deck, run.scene, run.state);
+    if (run.deck.run.initial_dt > 0.0)
+      run.state.dt = std::min(run.state.dt, run.deck.run.initial_dt);
     refuseTinySteps(run);
     refuseSideCrossing(run);
     startLedger(run);
   }
-  ReconstructionReport reconstruction;
-  reconstructState(run.scene, run.state, reconstruction);
   cause = reconstruction.failures == 0 ? "" : "an interface could not be placed: " + failedCell(run, reconstruction);
   cause = firstCause(*run.comm, cause);
   if (!cause.empty())

@@ -183,21 +183,6 @@ Body paintedBody(BodySpec const &spec)
 namespace
 {
 
-/// Density times longitudinal wave speed of the laws' reference states; 0: rigid.
-std::vector<double> impedances(std::vector<Material> const &materials)
-{
-  std::vector<double> result;
-  for (Material const &law : materials)
-  {
-    double const sv = 1.0 / law.density0;
-    double const bulk = law.rigid_body >= 0 ? 0.0 : equationOfState(law, sv, law.energy0).sound_speed_squared;
-    result.push_back(law.rigid_body >= 0
-                         ? 0.0
-                         : law.density0 * std::sqrt(longitudinalSoundSpeedSquared(law, bulk, sv, law.energy0)));
-  }
-  return result;
-}
-
 /// Of a body with a contact wall that is a block.
 PairInteraction wallInteraction(Boundary const &wall)
 {
@@ -209,7 +194,7 @@ PairInteraction wallInteraction(Boundary const &wall)
 
 } // namespace
 
-Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange const &exchange)
+Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange)
 {
   Scene scene;
   scene.kinematics = deck.kinematics;
@@ -250,13 +235,12 @@ Scene makeScene(Deck const &deck, DeckMesh const &, Mesh const &mesh, Exchange c
       interaction(a, b) = wall < 0 ? deck.interaction[a * f + b] : wallInteraction(deck.boundary[walls[wall]]);
     }
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
-  scene.constraint.impedance = deviceCopy("impedance", impedances(materials));
   scene.remap = deck.remap;
   scene.prescribed = deck.prescribed;
   if (deck.smoother.moves())
     scene.target_mesh = smoothedMesh(deck.smoother, scene.boundary, exchange);
   if (deck.kinematics == Kinematics::Lagrangian)
-    scene.subzone_fraction = subzoneFractions(mesh);
+    scene.subzone_fraction = subzoneFractions(mesh); // before a restart moves it
   if (deck.run.max_dt > 0.0)
     scene.max_dt = deck.run.max_dt;
   if (deck.prescribed.kind != FieldKind::None)
@@ -272,7 +256,6 @@ bool tracksDamage(Deck const &deck)
 CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const &scene)
 {
   CycleState s;
-  s.bodies = scene.rigid_start;
   if (deck.kinematics == Kinematics::Lagrangian)
     fillBlocks(deck, whole, scene, s);
   else
@@ -287,28 +270,7 @@ CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const
     s.pairs = painting.pairs;
     s.state.velocity = paintedVelocity(scene.mesh, bodies, painting, s.dof_nodes);
   }
-  if (tracksDamage(deck))
-  {
-    s.state.tracks_damage = true;
-    s.state.damage = View<double *>("damage", s.pairs.num_pairs);
-  }
-  setRigidVelocities(scene, s);
-  if (scene.prescribed.kind != FieldKind::None)
-    setPrescribedVelocities(scene, s);
   return s;
-}
-
-void setFirstTimeStep(Deck const &deck, Scene const &scene, CycleState &s)
-{
-  prepareWork(s.pairs, s.dof_nodes, s.work);
-  computeNodeAltitudes(scene.mesh, s.work);
-  computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
-  s.limit = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
-  s.dt = scene.max_dt;
-  if (scene.prescribed.kind == FieldKind::None)
-    s.dt = std::min(scene.exchange->min(s.limit.dt), s.dt);
-  if (deck.run.initial_dt > 0.0)
-    s.dt = std::min(s.dt, deck.run.initial_dt);
 }
 
 } // namespace Harmos

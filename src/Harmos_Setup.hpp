@@ -26,17 +26,14 @@ Shape makeShape(ShapeSpec const &spec);
 Body paintedBody(BodySpec const &spec);
 
 /// Everything that does not change: `mesh` and `exchange` are given, the rest comes from the deck.
-Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Exchange const &exchange);
+Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange);
 
 /// Whether some law of the deck can fail, so that pairs carry damage.
 bool tracksDamage(Deck const &deck);
 
-/// The state at time zero: painted bodies (or blocks), their velocities. Not collective: what is wrong with the bodies
-/// may show on some ranks alone.
+/// The state at time zero, before startCycle: painted bodies (or blocks), their velocities. Not collective: what is
+/// wrong with the bodies may show on some ranks alone.
 CycleState makeInitialState(Deck const &deck, DeckMesh const &whole, Scene const &scene);
-
-/// The first time step of a state. Collective.
-void setFirstTimeStep(Deck const &deck, Scene const &scene, CycleState &state);
 
 } // namespace Harmos
 

@@ -23,7 +23,7 @@ namespace
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
-  double sums[12] = {remap.kinetic_loss,
+  double sums[14] = {remap.kinetic_loss,
                      remap.overlap_volume,
                      remap.void_volume,
                      remap.outflow_mass,
@@ -34,8 +34,10 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
                      static_cast<double>(report.reconstruction.unfinished_cells),
                      static_cast<double>(report.update.out_of_range),
                      remap.returned_heat,
-                     static_cast<double>(report.light_nodes)};
-  exchange.sum(sums, 12);
+                     static_cast<double>(report.light_nodes),
+                     remap.closed_volume,
+                     static_cast<double>(report.reconstruction.greedy_cells)};
+  exchange.sum(sums, 14);
   l.external_work += report.external_work;
   l.contact_loss += report.constraint.contact_loss;
   l.external_impulse_x += report.external_impulse[0];
@@ -54,6 +56,8 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.unconverged_cycles += report.constraint.converged ? 0.0 : 1.0;
   l.broken_bonds += report.broken_bonds;
   l.light_nodes += sums[11];
+  l.closed_volume += sums[12];
+  l.greedy_cells += sums[13];
   l.repeats += report.repeats;
   l.restored_volume += report.restored_volume;
 }
@@ -156,12 +160,14 @@ void writeRunSummary(Run const &run, std::string const &status)
       s.wall_seconds > 0.0 ? (run.ledger.pair_steps - run.first_pair_steps) / s.wall_seconds : 0.0;
   s.ranks = run.comm->getSize();
   s.mass_error = run.ledger.largest_mass_error;
-  s.momentum_error = run.ledger.largest_momentum_error;
-  s.energy_error = run.ledger.largest_energy_error;
+  s.momentum_error = run.ledger.momentumError();
+  s.energy_error = run.ledger.energyError();
   s.angular_momentum_drift = run.ledger.largest_angular_drift;
   s.unconverged_cycles = std::llround(run.ledger.unconverged_cycles);
   s.broken_bonds = std::llround(run.ledger.broken_bonds);
   s.merged_fragments = std::llround(run.ledger.merged);
+  s.closed_void_volume = run.ledger.closed_volume;
+  s.greedy_cells = std::llround(run.ledger.greedy_cells);
   s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);
   if (run.scene.prescribed.kind != FieldKind::None)
   {

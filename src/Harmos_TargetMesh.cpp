@@ -8,13 +8,7 @@
 
 namespace Harmos
 {
-namespace
-{
 
-constexpr double largest_shared_aspect =
-    2.125; // largestAspectRatio of a rectangle with sides 1 : 4 (doc/decisions/0003)
-
-/// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2. Owned cells.
 double largestAspectRatio(Mesh const &mesh)
 {
   double largest = 0.0;
@@ -29,8 +23,6 @@ double largestAspectRatio(Mesh const &mesh)
       Kokkos::Max<double>(largest));
   return largest;
 }
-
-} // namespace
 
 View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
 {

@@ -7,6 +7,12 @@
 namespace Harmos
 {
 
+/// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2. Owned cells.
+double largestAspectRatio(Mesh const &mesh);
+
+/// largestAspectRatio of a rectangle with sides 1 : 4, the longest cells on several ranks (doc/decisions/0003).
+constexpr double largest_shared_aspect = 2.125 * (1.0 + 1e-9);
+
 /// What a target mesh has no meaning with. \throw std::runtime_error
 void checkTarget(Scene const &scene);
 

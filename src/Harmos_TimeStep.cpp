@@ -121,6 +121,8 @@ void reconstructState(Scene const &scene, CycleState &s, ReconstructionReport &r
 
 CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
 {
+  if (!s.started)
+    throw std::runtime_error("advance: the state has not been started; see startCycle");
   checkTarget(scene);
   if (scene.prescribed.kind != FieldKind::None)
     return advancePrescribed(scene, s, times);

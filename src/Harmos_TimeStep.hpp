@@ -46,10 +46,10 @@ struct Scene
   ReconstructionOptions reconstruction;
   ConstraintOptions constraint;
   RemapOptions remap;
-  View<double *[4]> subzone_fraction; // lagrangian: of the mesh at the start
+  View<double *[4]> subzone_fraction; // lagrangian: of the mesh at time zero, the present one where empty
   PrescribedField prescribed;         // with a kind: no mechanics, all moves with it
   double max_dt = 1e300;              // [s]
-  Exchange const *exchange = nullptr;
+  Exchange const *exchange = nullptr; // on one rank an Exchange, on several a TpetraExchange of this mesh
 };
 
 /// What the cycle carries.
@@ -72,6 +72,7 @@ struct CycleState
   double dt = 0.0;                   // of the next cycle [s]
   TimeStepLimit limit;               // what sets it
   long long cycle = 0;
+  bool started = false; // by startCycle
 };
 
 /// Seconds spent in the phases of the cycle, this rank.
@@ -113,11 +114,22 @@ PointField pointField(Scene const &scene, CycleState const &state);
 /// Filled regions of the state -> state.regions. Once at the start; every cycle ends with it.
 void reconstructState(Scene const &scene, CycleState &state, ReconstructionReport &report);
 
+/// Make a state ready for its first cycle, or for its next where a host code has restored it: checks scene and state,
+/// fills what follows from them (impedances and subzone fractions where empty, damage where a law can fail, rigid
+/// bodies and their velocities, the first stable step `state.dt`) and reconstructs the filled regions. Collective.
+///
+/// \param state Holds pairs, records, centroids, dof nodes and their velocities: painted (Harmos_Paint.hpp) or
+///              restored. A restored state's own step is to be set afterwards.
+/// \return Failures above zero: an interface could not be placed, and the state cannot be used.
+/// \throw std::runtime_error that names what is missing or does not fit.
+ReconstructionReport startCycle(Scene &scene, CycleState &state);
+
 /// One cycle: lagrange, constrain, move, remap, and the filled regions of the new state (doc/theory). With a
 /// prescribed field: move, remap, filled regions.
 ///
 /// \return What happened. `update.inverted` or `update.not_a_number` above zero, or failures of the remap or the
 ///         reconstruction, mean that the state is no longer to be used: the caller stops the run.
+/// \throw std::runtime_error if the state has not been started, or the host's target mesh cannot be used.
 CycleReport advance(Scene &scene, CycleState &state, PhaseTimes &times);
 
 } // namespace Harmos

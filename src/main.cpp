@@ -4,6 +4,7 @@
 #include "Harmos_Simulation.hpp"
 #include "Harmos_Version.hpp"
 
+#include <Harmos_Checkpoint.hpp>
 #include <Harmos_DeckReader.hpp>
 #include <Harmos_DeckSchema.hpp>
 
@@ -22,7 +23,7 @@ namespace
 {
 
 char const usage[] =
-    "usage: harmos run DECK.yaml [--output DIR] [--set 'path/to/key=value' ...] [--restart FILE] [--force]\n"
+    "usage: harmos run DECK.yaml [--output DIR] [--set 'path/to/key=value' ...] [--restart FILE|DIR] [--force]\n"
     "       harmos remap DECK.yaml [--output DIR] [--set 'key=value' ...] [--force]\n"
     "       harmos check DECK.yaml [--set 'path/to/key=value' ...]\n"
     "       harmos schema [remap]\n"
@@ -34,7 +35,7 @@ char const usage[] =
     "schema   lists every key of a deck: type, default, unit, allowed values; of a deck of `remap`\n"
     "--set    overrides a key of the deck; may be given many times\n"
     "--force  overwrites results that are in DIR\n"
-    "--restart continues from a checkpoint, to the same history\n"
+    "--restart continues from a checkpoint, or from the newest in DIR, to the same history\n"
     "\n"
     "exit status: 0 done, 2 bad input, 3 failed run, 4 interrupted (a checkpoint was written)\n";
 
@@ -46,6 +47,17 @@ struct Arguments
   std::vector<std::string> options; // those given
   Harmos::RunOptions run;
 };
+
+/// The checkpoint that --restart names: a file, or the newest in a folder.
+std::string checkpointOf(std::string const &path)
+{
+  if (!std::filesystem::is_directory(path))
+    return path;
+  std::string const newest = Harmos::newestCheckpoint(path);
+  if (newest.empty())
+    throw Harmos::DeckError("--restart " + path + ": no checkpoint_NNNNNNNNN.h5 in this folder");
+  return newest;
+}
 
 /// An option that a command would ignore is refused.
 void checkOptions(Arguments const &arguments)
@@ -84,7 +96,7 @@ Arguments parseArguments(int argc, char **argv)
     else if (word == "--set")
       arguments.overrides.push_back(value(i));
     else if (word == "--restart")
-      arguments.run.restart = value(i);
+      arguments.run.restart = checkpointOf(value(i));
     else if (word == "--force")
       arguments.run.force = true;
     else if (word == "--version" || word == "--help" || word == "-h")

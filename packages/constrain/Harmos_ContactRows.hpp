@@ -71,7 +71,7 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange);
 
-/// Give every rank the rows of its halo to depth 3. With one rank: nothing.
+/// Give every rank the rows of its halo to depth row_halo. With one rank: nothing.
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
                          Exchange const &exchange, ContactRows &rows);
 

@@ -31,6 +31,8 @@ struct Summary
   long long unconverged_cycles = 0;
   long long broken_bonds = 0;
   long long merged_fragments = 0;
+  double closed_void_volume = 0.0;     // spurious void that was closed, over all cycles [m^2]
+  long long greedy_cells = 0;          // mixed cells, over all cycles, of more than five components
   long long unfinished_interfaces = 0; // mixed cells, over all cycles, whose line's angle met its bound of iterations
   std::vector<std::pair<std::string, double>> shape_errors; // prescribed field: errors against the exact shapes [m^2]
   std::vector<std::string> warnings;

@@ -106,7 +106,7 @@ enum MaterialSum : int
   SumMomentumX,
   SumMomentumY,
   SumAngularMomentum, // about the origin
-  SumKineticEnergy,   // sum over corners of mass / 4 |v|^2 / 2
+  SumKineticEnergy,   // sum over corners of share * mass |v|^2 / 2 (mesh.corner_share)
   SumInternalEnergy,
   PlasticStrainMax,
   num_material_sums

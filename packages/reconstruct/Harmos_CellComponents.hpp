@@ -22,25 +22,6 @@ struct ReconstructionField
   View<double *[2]> centroid; // read where centroids are used
 };
 
-/// Volume fraction of a material in a cell, whatever its kind; void_material gives the void's.
-KOKKOS_INLINE_FUNCTION double volumeFraction(CellMaterialPairs const &pairs,
-                                             View<double *[num_pair_fields]> const &record, int cell, int material)
-{
-  int const kind = pairs.cell_kind(cell);
-  if (kind == VoidCell)
-    return material == void_material ? 1.0 : 0.0;
-  if (kind == PureCell)
-    return material == pairs.material(pairs.offset(cell)) ? 1.0 : 0.0;
-  double filled = 0.0;
-  for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
-  {
-    if (pairs.material(pair) == material)
-      return record(pair, VolumeFraction);
-    filled += record(pair, VolumeFraction);
-  }
-  return material == void_material ? Math::max(0.0, 1.0 - filled) : 0.0;
-}
-
 /// The components of a mixed cell (its materials, ascending, then void where there is some) in the cell's own
 /// coordinates xi = (x - corner) / size, size^2 = cell area: there the cell has unit area and digits stay. Its weighted
 /// volume there is one as well.

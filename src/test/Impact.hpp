@@ -59,13 +59,7 @@ struct Impact
     state.state.centroid = painting.centroid;
     state.dof_nodes = buildDofNodes(scene.mesh, scene.kinematics, state.state.record, state.pairs);
     state.state.velocity = paintedVelocity(scene.mesh, {disc, block}, painting, state.dof_nodes);
-    ReconstructionReport report;
-    reconstructState(scene, state, report);
-    prepareWork(state.pairs, state.dof_nodes, state.work);
-    computeNodeAltitudes(scene.mesh, state.work);
-    computeDofMass(scene.mesh, state.pairs, state.dof_nodes, state.state, scene.materials, state.work);
-    state.limit = stableTimeStep(scene.mesh, state.pairs, state.state, scene.materials, scene.lagrange, state.work);
-    state.dt = state.limit.dt;
+    startCycle(scene, state);
     Tracer tracer;
     tracer.position = {0.33, 0.52};
     tracer.material = 0;

@@ -4,6 +4,7 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 
 import harness
@@ -91,6 +92,15 @@ def test_bonds_with_a_strength_are_not_made_by_a_restart():
     r = harmos(BLOCK, bonded, directory=other, extra=good, expect=2)
     assert "interactions/" in r.text and len(r.text.splitlines()) == 1 and not other.exists(), r.text
     clean(part)
+
+
+def test_a_folder_stands_for_its_newest_checkpoint():
+    settings = {**QUIET, "output/checkpoint/every_cycles": 10}
+    whole, part = (harmos(BALL, {**settings, "run/max_cycles": cycles}) for cycles in (40, 33))
+    r = harmos(BALL, {**settings, "run/max_cycles": 40}, directory=part.directory, extra=["--restart", str(part.directory)])
+    assert r.summary["cycles"] == 40
+    same_tables(whole.directory, r.directory)
+    clean(whole, r)
 
 
 def test_disc_through_plate_with_a_row_every_seventh_cycle():
@@ -187,6 +197,9 @@ def test_bad_restart_files_change_nothing():
         assert len(r.text.splitlines()) == 1 and str(file) in r.text, r.text
         print(" ", r.text.strip())
         assert contents(part.directory) == before
+    with tempfile.TemporaryDirectory() as empty:
+        r = harmos(BALL, stop({}, 40), directory=part.directory, extra=["--restart", empty], expect=2)
+        assert f"--restart {empty}: no checkpoint" in r.text and contents(part.directory) == before, r.text
     r = harmos(BALL, {**stop({}, 40), "mesh/x/cells": 41}, directory=part.directory, extra=["--restart", str(good)], expect=2)
     assert "mesh/x/cells" in r.text and contents(part.directory) == before, r.text
     clean(part, other)

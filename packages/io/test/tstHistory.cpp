@@ -188,6 +188,8 @@ TEST(Summary, file_holdsEveryKeyInOrder)
                           "unconverged_cycles",
                           "broken_bonds",
                           "merged_fragments",
+                          "closed_void_volume",
+                          "greedy_cells",
                           "unfinished_interfaces",
                           "warnings",
                           "versions",

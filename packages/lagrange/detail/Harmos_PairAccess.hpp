@@ -40,17 +40,6 @@ KOKKOS_INLINE_FUNCTION Corners<double> cornerVelocities(CellMaterialPairs const 
   return c;
 }
 
-KOKKOS_INLINE_FUNCTION PairRecord<double> loadRecord(View<double *[num_pair_fields]> const &record, int pair)
-{
-  PairRecord<double> r;
-  r.mass = record(pair, Mass);
-  r.specific_volume = record(pair, SpecificVolume);
-  r.internal_energy = record(pair, InternalEnergy);
-  r.plastic_strain = record(pair, PlasticStrain);
-  r.deviator = {record(pair, DeviatorXX), record(pair, DeviatorYY), record(pair, DeviatorXY)};
-  return r;
-}
-
 /// \defgroup PackedPairs The same for the pairs of a pack's lanes.
 /// \{
 

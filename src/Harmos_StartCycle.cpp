@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_PrescribedCycle.hpp"
+#include "Harmos_TargetMesh.hpp"
+
+#include <Harmos_EquationOfState.hpp>
+#include <Harmos_Failure.hpp>
+#include <Harmos_FlowStress.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace Harmos
+{
+namespace
+{
+
+/// Density times longitudinal wave speed of the laws' reference states; 0: rigid. [kg/(m^2 s)]
+std::vector<double> impedances(std::vector<Material> const &materials)
+{
+  std::vector<double> result;
+  for (Material const &law : materials)
+  {
+    double const sv = 1.0 / law.density0;
+    double const bulk = law.rigid_body >= 0 ? 0.0 : equationOfState(law, sv, law.energy0).sound_speed_squared;
+    result.push_back(law.rigid_body >= 0
+                         ? 0.0
+                         : law.density0 * std::sqrt(longitudinalSoundSpeedSquared(law, bulk, sv, law.energy0)));
+  }
+  return result;
+}
+
+void require(bool right, std::string const &what)
+{
+  if (!right)
+    throw std::runtime_error(what);
+}
+
+int largestMaterial(CellMaterialPairs const &pairs)
+{
+  int largest = -1;
+  Kokkos::parallel_reduce(
+      "Harmos::largestMaterial", RangePolicy(0, pairs.num_pairs),
+      KOKKOS_LAMBDA(int pair, int &most) { most = Math::max(most, pairs.material(pair)); }, Kokkos::Max<int>(largest));
+  return largest;
+}
+
+/// What a host code can leave out or get wrong without a kernel that would notice.
+void checkScene(Scene const &scene)
+{
+  require(scene.exchange != nullptr, "scene.exchange is not set; a host code on one rank gives a Harmos::Exchange");
+  std::string const n = std::to_string(scene.materials.extent(0));
+  auto const &table = scene.constraint.interaction;
+  require(table.extent(0) == scene.materials.extent(0) && table.extent(1) == scene.materials.extent(0),
+          "scene.constraint.interaction is " + std::to_string(table.extent(0)) + " x " +
+              std::to_string(table.extent(1)) + "; expected: " + n + " x " + n + ", as many as materials");
+  require(static_cast<int>(scene.boundary.node_index.extent(0)) == scene.mesh.num_nodes,
+          "scene.boundary does not belong to scene.mesh; see buildBoundaryConditions");
+  require(scene.rigid_shape.size() == scene.rigid_start.size() || scene.kinematics == Kinematics::Lagrangian,
+          "scene.rigid_shape and scene.rigid_start differ in number");
+  if (scene.exchange->size() == 1)
+    return;
+  require(scene.kinematics != Kinematics::Lagrangian, "lagrangian kinematics runs on one rank only");
+  require(!(scene.exchange->max(largestAspectRatio(scene.mesh)) > largest_shared_aspect),
+          "the mesh has cells of an aspect ratio above 4, which run on one rank only");
+}
+
+void checkState(Scene const &scene, CycleState const &s)
+{
+  std::string const pairs = std::to_string(s.pairs.num_pairs), dofs = std::to_string(s.dof_nodes.num_dof_nodes);
+  require(static_cast<int>(s.pairs.offset.extent(0)) == scene.mesh.num_cells + 1,
+          "state.pairs does not belong to scene.mesh");
+  require(static_cast<int>(s.state.record.extent(0)) >= s.pairs.num_pairs &&
+              static_cast<int>(s.state.centroid.extent(0)) >= s.pairs.num_pairs,
+          "state.state has fewer records or centroids than the " + pairs + " pairs");
+  require(static_cast<int>(s.state.velocity.extent(0)) >= s.dof_nodes.num_dof_nodes,
+          "state.state.velocity has fewer rows than the " + dofs + " dof nodes");
+  int const largest = largestMaterial(s.pairs);
+  require(largest < static_cast<int>(scene.materials.extent(0)),
+          "state.pairs names material " + std::to_string(largest) + "; expected: less than " +
+              std::to_string(scene.materials.extent(0)) + ", the number of materials");
+}
+
+} // namespace
+
+ReconstructionReport startCycle(Scene &scene, CycleState &s)
+{
+  checkScene(scene);
+  checkState(scene, s);
+  auto const materials = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.materials);
+  std::vector<Material> const laws(materials.data(), materials.data() + materials.extent(0));
+  if (scene.constraint.impedance.extent(0) == 0)
+    scene.constraint.impedance = deviceCopy("impedance", impedances(laws));
+  if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)
+    scene.subzone_fraction = subzoneFractions(scene.mesh);
+  bool can_fail = false;
+  for (Material const &law : laws)
+    can_fail = can_fail || canFail(law);
+  if (can_fail && !s.state.tracks_damage)
+  {
+    s.state.tracks_damage = true;
+    s.state.damage = View<double *>("damage", s.pairs.num_pairs);
+  }
+  if (s.bodies.empty())
+    s.bodies = scene.rigid_start;
+  setRigidVelocities(scene, s);
+  if (scene.prescribed.kind != FieldKind::None)
+    setPrescribedVelocities(scene, s);
+
+  prepareWork(s.pairs, s.dof_nodes, s.work);
+  computeNodeAltitudes(scene.mesh, s.work);
+  computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
+  s.limit = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
+  s.dt = scene.max_dt;
+  if (scene.prescribed.kind == FieldKind::None)
+    s.dt = Math::min(scene.exchange->min(s.limit.dt), s.dt);
+  ReconstructionReport report;
+  reconstructState(scene, s, report);
+  s.started = true;
+  return report;
+}
+
+} // namespace Harmos
