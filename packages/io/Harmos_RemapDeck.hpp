@@ -39,18 +39,16 @@ struct RemapDeck
   RemapField field;
   RemapScheme scheme = RemapScheme::Swept;
   int order = 2;
-  RemapLimiter limiter = RemapLimiter::Range;
+  RemapLimiter limiter = RemapLimiter::RangeInside;
   std::vector<int> cells; // along a side, one run each
   int steps = 0;          // 0: random 1, otherwise steps_per_cell * cells
   double steps_per_cell = 5.0;
   std::string json; // with all defaults
 
   int stepsOf(int cells_along_a_side) const;
-  bool compares() const
-  {
-    return scheme != RemapScheme::Swept && scheme != RemapScheme::Intersection &&
-           scheme != RemapScheme::FieldIntersection;
-  }
+  /// Whether whole records and momentum are remapped, as in the cycle; else the field alone.
+  bool carriesRecords() const { return scheme == RemapScheme::Swept || scheme == RemapScheme::Intersection; }
+  bool compares() const { return !carriesRecords() && scheme != RemapScheme::FieldIntersection; }
 };
 
 /// Every key of such a deck.
