@@ -112,6 +112,36 @@ void failByTimeStep(Run const &run)
   throw RunFailure(text);
 }
 
+/// The materials of a cell.
+std::vector<int> materialsOf(Run const &run, int cell)
+{
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), run.state.pairs.offset);
+  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), run.state.pairs.material);
+  return {material.data() + offset(cell), material.data() + offset(cell + 1)};
+}
+
+/// A cell that gets more materials than there is room for: which, and what to do.
+std::string crowdedCell(Run const &run, int cell, std::string const &most)
+{
+  std::vector<std::string> const names = materialNames(run.deck);
+  std::string list;
+  for (int material : materialsOf(run, cell))
+    list += (list.empty() ? "" : ", ") + names[material];
+  return placeOf(run, cell, -1) + "; " + most + ": " + list +
+         "; expected: smaller cells there, or bodies of one law that share a field (bodies/NAME/join)";
+}
+
+std::string remapFailure(Run const &run, RemapReport const &report)
+{
+  if (report.first_failed_material >= 0)
+    return "the overlays of a donor do not add up to it: " +
+           placeOf(run, report.first_failed_cell, report.first_failed_material);
+  int const cell = report.first_failed_cell;
+  return "more materials come into a cell than it can hold: " +
+         crowdedCell(run, cell,
+                     std::to_string(materialsOf(run, cell).size()) + " have room, and at least one more comes");
+}
+
 /// What makes a state useless stops the run: with cycle, cell, material and cause.
 void checkCycle(Run const &run, CycleReport const &report)
 {
@@ -125,9 +155,7 @@ void checkCycle(Run const &run, CycleReport const &report)
   else if (u.not_a_number > 0)
     cause = "a value is not a number, or a specific volume not positive: " + placeOf(run, u.cell, u.material);
   else if (report.remap.failures > 0)
-    cause = (report.remap.first_failed_material < 0 ? "more materials come into a cell than it can hold: "
-                                                    : "the overlays of a donor do not add up to it: ") +
-            placeOf(run, report.remap.first_failed_cell, report.remap.first_failed_material);
+    cause = remapFailure(run, report.remap);
   else if (report.reconstruction.failures > 0)
     cause = "an interface could not be placed: " + failedCell(run, report.reconstruction);
   if (!cause.empty())
@@ -324,12 +352,12 @@ std::string failedCell(Run const &run, ReconstructionReport const &report)
   std::string const place = placeOf(run, cell, report.first_failed_material);
   if (cell < 0)
     return place;
-  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), run.state.pairs.offset);
-  int const materials = offset(cell + 1) - offset(cell);
+  std::size_t const materials = materialsOf(run, cell).size();
   if (materials < max_components)
     return place;
-  return place + "; " + std::to_string(materials) + " materials meet in it, and at most " +
-         std::to_string(max_components) + " can, void among them";
+  return crowdedCell(run, cell,
+                     std::to_string(materials) + " materials meet in it, and at most " +
+                         std::to_string(max_components) + " can, void among them");
 }
 
 void checkScene(Deck const &deck, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)

@@ -192,6 +192,27 @@ def test_more_materials_than_a_cell_can_hold_are_counted():
                 assert program("check", deck).returncode == 0
 
 
+def crowd():
+    """Four small discs in each of the cells around the middle one, which all enter it in the first cycle."""
+    bodies = []
+    for i, j in [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0)]:
+        for n in range(4):
+            x = i * (0.215 + 0.03 * (n % 2 if j else 0)) + (0 if i else 0.1 * n - 0.15)
+            y = j * (0.215 + 0.03 * (n // 2 if i else 0)) + (0 if j else 0.1 * n - 0.15)
+            bodies.append(f"    b{len(bodies)}: {{material: m, shape: disc, center: [{x:.3f}, {y:.3f}], radius: 0.01, velocity: [{-100.0 * i}, {-100.0 * j}]}}\n")
+    return PIE.replace("1000.0}}}}", "100.0}}}}").format(bodies="".join(bodies))
+
+
+def test_a_cell_that_more_materials_enter_than_it_holds_is_named_with_them():
+    with tempfile.TemporaryDirectory() as scratch:
+        deck = pathlib.Path(scratch) / "crowd.yaml"
+        deck.write_text(crowd())
+        r = program("run", deck, "--output", scratch + "/out")
+        assert r.returncode == 3, r.returncode
+        for part in ["cell 12 on rank 0; 24 have room, and at least one more comes: b0, b1, ", "; expected: smaller cells", "bodies/NAME/join"]:
+            assert part in r.stderr + r.stdout, f"'{part}' is missing in:\n{r.stderr}{r.stdout}"
+
+
 def test_a_mesh_that_no_memory_holds_has_its_size_in_the_message():
     command = f"ulimit -v 4000000; exec {harness.HARMOS} check {BALL} --set mesh/x/cells=23000 --set mesh/y/cells=23000"
     r = subprocess.run(["bash", "-c", command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
