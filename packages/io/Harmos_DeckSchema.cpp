@@ -250,9 +250,9 @@ void addNumerics(ParameterList &list)
       "1: constant in a cell; 2: limited linear; 3: limited quadratic (momentum of swept regions stays linear)");
   add(m, "hessian", std::string("least squares"), choice({"least squares", "contour"}),
       "order 3: a fit that is exact for quadratics, or contour integrals (Dukowicz and Kodis)");
-  add(m, "limiter", std::string("range"), choice({"range", "range inside", "van leer", "none"}),
-      "of gradients. range: no new extrema; range inside: none beyond all of the material's values at the mesh's "
-      "boundary; van leer: towards neighbours");
+  add(m, "limiter", std::string("range inside"), choice({"range", "range inside", "van leer", "none"}),
+      "of gradients. range: no new extrema; range inside: the same, at the mesh's boundary with mirrored values beyond "
+      "it; van leer: towards neighbours");
   add(m, "swept_faces", remap.swept_faces, rulesOf(KeyType::Bool),
       "pure regions by swept faces; false: intersection everywhere");
   add(m, "merge_below", remap.merge_below, number(between(0.0, 0.1)),

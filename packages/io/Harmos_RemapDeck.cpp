@@ -86,7 +86,7 @@ ParameterList remapSchema()
       "1: constant in a cell; 2: linear; 3: quadratic, schemes swept and intersection. Limited in the remap of the "
       "cycle",
       {1.0, 3.0, false, false});
-  add(schema, "limiter", std::string("range"), KeyType::Choice,
+  add(schema, "limiter", std::string("range inside"), KeyType::Choice,
       "swept and intersection of second order: as numerics/remap/limiter of a run; comparators have none", {},
       {"range", "range inside", "van leer", "none"});
   add(schema, "cells", Teuchos::Array<double>(Teuchos::tuple(32.0, 64.0)), KeyType::Numbers,
@@ -136,7 +136,7 @@ RemapDeck readRemapDeckText(std::string const &text, std::string const &file, st
   require(deck.geometry == Geometry::Planar || deck.scheme == RemapScheme::Swept ||
               deck.scheme == RemapScheme::Intersection,
           file, "scheme", "it is planar with geometry axisymmetric; expected: swept or intersection");
-  require(!compares || deck.limiter == RemapLimiter::Range, file, "limiter",
+  require(!compares || deck.limiter == RemapLimiter::RangeInside, file, "limiter",
           "a comparator has none; expected: scheme swept or intersection");
   require(deck.scheme != RemapScheme::FieldIntersection || deck.limiter != RemapLimiter::VanLeer, file, "limiter",
           "'van leer' is not for scheme field intersection; expected: range, range inside or none");

@@ -27,6 +27,7 @@ void keepMesh(Mesh const &mesh, bool moves, Kept &kept)
   kept.window = {};
   kept.classes = {};
   kept.links = {};
+  kept.rim = {};
   kept.boxed = false;
 }
 
@@ -264,7 +265,9 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     boxCells(mesh, kept.links);
   kept.boxed = kept.boxed || classes.num_interface > 0;
   in.links = kept.links;
-  in.ranges = fieldRanges(in, classes, exchange);
+  if (kept.rim.data() == nullptr)
+    kept.rim = rimCells(mesh);
+  in.ranges = fieldRanges(in, classes, kept.rim, exchange);
   SweptSums sums;
   StageState const stage = sweepPureCells(in, classes, kept, sums);
   sums.kinetic_before += otherKineticEnergy(in, classes);

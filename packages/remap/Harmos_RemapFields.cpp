@@ -27,22 +27,20 @@ void checkOptions(Mesh const &mesh, CellFields const &fields, CellFields const &
     throw std::runtime_error("remapFields: the new averages need an array of their own, of the same shape");
 }
 
-/// Least and largest value of every field, over the owned cells of all ranks.
-View<double *[2]> rangesOf(Mesh const &mesh, CellFields const &fields, Exchange const &exchange)
+/// Least and largest value of every field at the rim of the mesh, over all ranks.
+View<double *[2]> rangesOf(View<int *> const &rim, CellFields const &fields, Exchange const &exchange)
 {
   int const count = static_cast<int>(fields.value.extent(1));
   std::vector<double> bounds;
   for (int f = 0; f < count; ++f)
   {
-    double least = 0.0, largest = 0.0;
+    double least = 1e300, largest = -1e300;
     auto const value = fields.value;
     Kokkos::parallel_reduce(
-        "Harmos::remapFields::range", RangePolicy(0, mesh.num_cells),
-        KOKKOS_LAMBDA(int cell, double &low, double &high) {
-          if (mesh.cell_depth(cell) != 0)
-            return;
-          low = Math::min(low, value(cell, f));
-          high = Math::max(high, value(cell, f));
+        "Harmos::remapFields::range", RangePolicy(0, rim.extent(0)),
+        KOKKOS_LAMBDA(int i, double &low, double &high) {
+          low = Math::min(low, value(rim(i), f));
+          high = Math::max(high, value(rim(i), f));
         },
         Kokkos::Min<double>(least), Kokkos::Max<double>(largest));
     bounds.insert(bounds.end(), {least, -largest});
@@ -69,6 +67,7 @@ struct FieldScratch
   View<double *[8]> corner;
   View<double *[4]> shape;
   View<double *> overlay;
+  View<int *> rim; // rimCells
 };
 
 int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields const &fields, CellFields const &remapped,
@@ -82,6 +81,7 @@ int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields con
   if (kept.neighbours.data() != mesh.cell_neighbour.item.data())
   {
     kept.links = linkNeighbours(mesh);
+    kept.rim = rimCells(mesh);
     kept.neighbours = mesh.cell_neighbour.item;
   }
   FieldStage stage;
@@ -102,7 +102,7 @@ int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields con
   stage.shape = kept.shape;
   stage.overlay = kept.overlay;
   if (options.limiter == RemapLimiter::RangeInside && options.order == 2)
-    stage.range = rangesOf(mesh, fields, exchange);
+    stage.range = rangesOf(kept.rim, fields, exchange);
   return intersectFields(stage);
 }
 

@@ -24,7 +24,8 @@ struct FieldWork
 ///
 /// Second order: least-squares gradients over the vertex neighbours, weighted by one over distance squared. With
 /// RemapLimiter::Range the means of what each acceptor gets stay within the range of the donor and its neighbours, and
-/// so do the new averages; RangeInside takes the range of the whole field in cells at the mesh's boundary.
+/// so do the new averages; RangeInside: in cells at the mesh's boundary the range goes on to the mirrored value of the
+/// cell opposite, where that is within the values at the mesh's rim.
 ///
 /// \param mesh    The target, planar, with convex cells. Runs over all local cells.
 /// \param start   Node positions of the mesh that the fields are on [length].

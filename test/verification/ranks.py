@@ -36,7 +36,7 @@ def test_translation_patch():
 
 def test_third_order_with_swept_faces():
     for deck in "translation_patch/deck.yaml", "taylor_rod_axisymmetric/deck.yaml":
-        clean(compare(deck, {"numerics/remap/order": 3, "numerics/remap/limiter": "range inside"}))
+        clean(compare(deck, {"numerics/remap/order": 3}))
 
 
 def test_two_bars():

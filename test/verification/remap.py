@@ -49,15 +49,15 @@ def test_cyclic_remapping_within_range_is_hardly_worse_than_without_limiter():
 def test_third_order_on_random_meshes():
     # parts of the error of the peer, which is of second order
     for scheme in ["swept", "intersection"]:
-        r = remap("random.yaml", scheme=scheme, order=3, limiter="range inside", cells="[32.0, 64.0, 128.0]")
+        r = remap("random.yaml", scheme=scheme, order=3, cells="[32.0, 64.0, 128.0]")
         for error, peer, part in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5], [0.67, 0.33, 0.17]):
             check(f"third order, {scheme}: L1", error, part * peer)
         check(f"third order, {scheme}: slope below 3 by", 3.0 - r["order_L1"][2], 0.2)
         conserves_within_range(f"third order, {scheme}, random", r)
         r = remap(scheme=scheme, order=3, cells="[32.0]")
         conserves_within_range(f"third order, {scheme}", r)
-        r = remap(scheme=scheme, field="shock", limiter="range inside", cells="[32.0]")
-        conserves_within_range(f"{scheme}, shock, range inside", r)
+        r = remap(scheme=scheme, field="shock", cells="[32.0]")
+        conserves_within_range(f"{scheme}, shock", r)
 
 
 def test_rings_are_remapped_as_planar_cells_are():
@@ -68,7 +68,7 @@ def test_rings_are_remapped_as_planar_cells_are():
             check(f"rings, {motion}, {scheme}: L1", r["L1"][0], peer)
             conserves_within_range(f"rings, {motion}, {scheme}", r)
             check(f"rings, {motion}, {scheme}: axial momentum", r["momentum"][0], 1e-13)
-    r = remap("random.yaml", geometry="axisymmetric", limiter="range inside", cells="[32.0, 64.0, 128.0]")
+    r = remap("random.yaml", geometry="axisymmetric", cells="[32.0, 64.0, 128.0]")
     for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
         check("rings, random: L1", error, peer)
     for scheme in ["swept", "intersection"]:
@@ -80,7 +80,7 @@ def test_rings_are_remapped_as_planar_cells_are():
 
 
 def test_the_field_alone_on_random_meshes():
-    r = remap("random.yaml", scheme="field intersection", limiter="range inside", cells="[32.0, 64.0, 128.0]")
+    r = remap("random.yaml", scheme="field intersection", cells="[32.0, 64.0, 128.0]")
     for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
         check("random, L1", error, peer)
     r = remap("random.yaml", scheme="field intersection", carrier="density", cells="[32.0]")
@@ -95,15 +95,11 @@ def test_cyclic_remapping_without_limiter():
 
 
 def test_random_meshes_orders_of_accuracy():
-    r = remap("random.yaml", cells="[32.0, 64.0, 128.0]")
-    # limited in the boundary's cells as well, which the peer leaves alone (2.19e-4, 4.39e-5, 1.03e-5)
-    for error, bound in zip(r["L1"], [8.5e-4, 2.3e-4, 6.5e-5]):
-        check("L1, second order limited", error, bound)
-    conserves_within_range("random", r)
-    r = remap("random.yaml", limiter="range inside", cells="[32.0, 64.0, 128.0]")
-    for error, peer in zip(r["L1"], [2.19e-4, 4.39e-5, 1.03e-5]):
-        check("L1, second order, range of all at the boundary", error, peer)
-    conserves_within_range("random, range inside", r)
+    for scheme, peers in [("intersection", [2.19e-4, 4.39e-5, 1.03e-5, 2.51e-6]), ("swept", [3.22e-4, 7.05e-5, 1.77e-5, 4.39e-6])]:
+        r = remap("random.yaml", scheme=scheme, cells="[32.0, 64.0, 128.0, 256.0]")
+        for error, peer in zip(r["L1"], peers):
+            check(f"L1, {scheme}, second order limited", error, peer)
+        conserves_within_range(f"random, {scheme}", r)
     r = remap("random.yaml", order=1, cells="[32.0, 64.0]")
     for error, peer in zip(r["L1"], [3.74e-3, 1.66e-3]):
         check("L1, first order", error, 1.1 * peer)  # other random numbers
@@ -111,8 +107,7 @@ def test_random_meshes_orders_of_accuracy():
 
 def test_any_number_of_ranks_gives_the_same_errors():
     for scheme, order, geometry in [("intersection", 2, "planar"), ("field intersection", 2, "planar"), ("swept", 3, "planar"), ("intersection", 3, "axisymmetric")]:
-        limiter = "range inside" if scheme == "field intersection" or order == 3 else "range"
-        one, two, four = (remap(cells="[32.0]", scheme=scheme, order=order, geometry=geometry, limiter=limiter, ranks=n) for n in (1, 2, 4))
+        one, two, four = (remap(cells="[32.0]", scheme=scheme, order=order, geometry=geometry, ranks=n) for n in (1, 2, 4))
         for r in two, four:
             for column in ["L1", "L2"]:
                 check(f"{scheme}, order {order}: {column} on more ranks", abs(r[column][0] / one[column][0] - 1.0), 1e-12)

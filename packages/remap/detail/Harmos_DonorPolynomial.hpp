@@ -184,14 +184,6 @@ struct PolynomialFinder
     return true;
   }
 
-  KOKKOS_INLINE_FUNCTION bool isAtBoundary(int cell) const
-  {
-    bool any = false;
-    for (int k = 0; k < 4; ++k)
-      any = any || in.mesh.face_neighbour(cell, k) < 0;
-    return any;
-  }
-
   KOKKOS_INLINE_FUNCTION bool isBeyondFace(int cell, int neighbour) const
   {
     bool any = false;
@@ -289,10 +281,7 @@ struct PolynomialFinder
     }
   }
 
-  KOKKOS_INLINE_FUNCTION bool limitsToRange() const
-  {
-    return in.options.limiter == RemapLimiter::Range || in.options.limiter == RemapLimiter::RangeInside;
-  }
+  KOKKOS_INLINE_FUNCTION bool limitsToRange() const { return in.options.limiter == RemapLimiter::Range || in.options.limiter == RemapLimiter::RangeInside; }
 
   /// Deviations of the parts' means from the donor's.
   struct Deviations
@@ -362,15 +351,36 @@ struct PolynomialFinder
     g.lower = {q.record, lesser(q.corner, before.corner)};
     g.upper = {q.record, greater(q.corner, before.corner)};
     gradient(cell, donor, before, g, beyond);
-    if (in.options.limiter == RemapLimiter::RangeInside && isAtBoundary(cell))
-    {
-      int const material = donors.head(donor).material;
-      StageFields const least = loadStageFields(&in.ranges(material, 0));
-      StageFields const largest = loadStageFields(&in.ranges(material, num_stage_fields));
-      g.lower = {lesser(g.lower.record, least.record), lesser(g.lower.corner, least.corner)};
-      g.upper = {greater(g.upper.record, largest.record), greater(g.upper.corner, largest.corner)};
-    }
+    for (int k = 0; in.ranges.extent(0) > 0 && k < 4; ++k)
+      if (in.mesh.face_neighbour(cell, k) < 0)
+        widenBeyond(cell, (k + 2) % 4, donors.head(donor).material, before, g);
     return before;
+  }
+
+  KOKKOS_INLINE_FUNCTION static void widenFields(FieldPack const &q, FieldPack const &opposite, double const *least,
+                                                 double const *largest, FieldPack &lower, FieldPack &upper)
+  {
+    FieldPack const low(least), high(largest);
+    for (int p = 0; p < FieldPack::parts; ++p)
+      widenByMirrored<Pack>(q.part[p], opposite.part[p], low.part[p], high.part[p], lower.part[p], upper.part[p]);
+  }
+
+  /// Widen the range of a cell at the boundary, which lies opposite of the given face.
+  KOKKOS_INLINE_FUNCTION void widenBeyond(int cell, int face, int material, StageFields const &q, Gradient &g) const
+  {
+    int const opposite = in.mesh.face_neighbour(cell, face);
+    Neighbour n;
+    bool found = false;
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
+      if (opposite >= 0 && in.mesh.cell_neighbour.item(j) == opposite / 4)
+        found = findNeighbour(j, material, n);
+    if (!found)
+      return;
+    double const *const least = &in.ranges(material, 0), *const largest = &in.ranges(material, num_stage_fields);
+    widenFields(q.record, n.value.record, least, largest, g.lower.record, g.upper.record);
+    widenFields(q.corner, n.value.corner, least + first_corner_field, largest + first_corner_field, g.lower.corner,
+                g.upper.corner);
+    shareRange(g.lower.corner, g.upper.corner);
   }
 
   /// Of a moving donor of `cell`.

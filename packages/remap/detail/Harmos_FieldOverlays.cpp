@@ -64,8 +64,8 @@ struct FieldOverlays
     Pack centroid_x, centroid_y, area;
     Pack volume[most_slots], first_x[most_slots], first_y[most_slots]; // moments of the overlays about it
     Pack to_x[most_slots], to_y[most_slots];                           // weights of the gradient's components
-    bool widens = false;                                               // RangeInside, and some of them
-    Pack at_boundary;                                                  // 1 there
+    bool at_boundary[4];         // where the limiter guesses what lies beyond: face k of some of them
+    int opposite[4][pack_width]; // the cell opposite of it; the donor itself where there is none
   };
 
   KOKKOS_FORCEINLINE_FUNCTION void load(int block, Donors &d) const
@@ -188,6 +188,22 @@ struct FieldOverlays
     }
   }
 
+  /// Of the faces at which the mesh ends.
+  KOKKOS_FORCEINLINE_FUNCTION void findOpposites(Donors &d) const
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      d.at_boundary[k] = false;
+      for (int lane = 0; lane < pack_width; ++lane)
+      {
+        int const cell = d.at.cell[lane], face = stage.mesh.face_neighbour(cell, (k + 2) & 3);
+        bool const ends = stage.range.extent(0) > 0 && stage.mesh.face_neighbour(cell, k) < 0 && face >= 0;
+        d.opposite[k][lane] = ends ? face / 4 : cell;
+        d.at_boundary[k] = d.at_boundary[k] || ends;
+      }
+    }
+  }
+
   /// The part of a gradient that keeps the means of all overlays within range.
   KOKKOS_FORCEINLINE_FUNCTION static Pack limit(Donors const &d, Pack const &gx, Pack const &gy, Pack const &q,
                                                 Pack const &lower, Pack const &upper)
@@ -219,12 +235,12 @@ struct FieldOverlays
         lower = Math::min(lower, other);
         upper = Math::max(upper, other);
       }
-      if (d.widens)
-      {
-        auto const here = d.at_boundary > Pack(0.0);
-        lower = select(here, Math::min(lower, Pack(stage.range(f, 0))), lower);
-        upper = select(here, Math::max(upper, Pack(stage.range(f, 1))), upper);
-      }
+      for (int k = 0; k < 4; ++k)
+        if (d.at_boundary[k])
+        {
+          Pack const other = packOf([&](int lane) { return stage.fields.value(d.opposite[k][lane], f); });
+          widenByMirrored(q, other, Pack(stage.range(f, 0)), Pack(stage.range(f, 1)), lower, upper);
+        }
       if (stage.limiter != RemapLimiter::None)
       {
         Pack const part = limit(d, gx, gy, q, lower, upper);
@@ -253,16 +269,7 @@ struct FieldOverlays
       storePack(stage.column(s, 0) + block * pack_width, d.volume[s]);
     if (stage.order == 2)
       weigh(d);
-    d.widens = stage.range.extent(0) > 0;
-    if (d.widens)
-      d.at_boundary = packOf(
-          [&](int lane)
-          {
-            bool inside = true;
-            for (int k = 0; k < 4; ++k)
-              inside = inside && stage.mesh.face_neighbour(d.at.cell[lane], k) >= 0;
-            return inside ? 0.0 : 1.0;
-          });
+    findOpposites(d);
     for (int f = 0; f + 1 < stage.columns; ++f)
       integrate(block, d, f);
   }

@@ -20,7 +20,7 @@ struct FieldStage
   int order;
   RemapLimiter limiter;
   CellFields fields, remapped;
-  View<double *[2]> range; // of every field, least and largest; extent 0 unless RangeInside
+  View<double *[2]> range; // of every field, least and largest at the rim of the mesh; extent 0: no limiter
 
   View<double *[8]> corner; // of the target's cells: x of the four, then y
   View<double *[4]> shape;  // of the start's cells: centroid x, y, area

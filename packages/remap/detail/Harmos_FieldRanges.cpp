@@ -28,6 +28,22 @@ struct Bounds
   }
 };
 
+KOKKOS_INLINE_FUNCTION bool isAtBoundary(Mesh const &mesh, int cell)
+{
+  bool any = false;
+  for (int k = 0; k < 4; ++k)
+    any = any || mesh.face_neighbour(cell, k) < 0;
+  return any;
+}
+
+KOKKOS_INLINE_FUNCTION bool isAtRim(Mesh const &mesh, int cell)
+{
+  bool any = isAtBoundary(mesh, cell);
+  for (int j = mesh.cell_neighbour.offset(cell); j < mesh.cell_neighbour.offset(cell + 1); ++j)
+    any = any || isAtBoundary(mesh, mesh.cell_neighbour.item(j));
+  return any;
+}
+
 KOKKOS_FORCEINLINE_FUNCTION Bounds boundsOfCell(Input const &in, int cell)
 {
   int const pair = in.pairs.offset(cell);
@@ -52,14 +68,14 @@ KOKKOS_FORCEINLINE_FUNCTION Bounds boundsOfCell(Input const &in, int cell)
   return b;
 }
 
-Bounds boundsOf(Input const &in, Classes const &classes, int material)
+Bounds boundsOf(Input const &in, Classes const &classes, View<int *> const &rim, int material)
 {
   Bounds bounds;
   Kokkos::parallel_reduce(
-      "Harmos::remap::fieldRanges", RangePolicy(0, in.mesh.num_cells),
-      KOKKOS_LAMBDA(int cell, Bounds &b) {
-        if (classes.pure_material(cell) == material && in.mesh.cell_depth(cell) == 0)
-          b.join(boundsOfCell(in, cell));
+      "Harmos::remap::fieldRanges", RangePolicy(0, rim.extent(0)),
+      KOKKOS_LAMBDA(int i, Bounds &b) {
+        if (classes.pure_material(rim(i)) == material)
+          b.join(boundsOfCell(in, rim(i)));
       },
       JoinReducer<Bounds>(bounds));
   return bounds;
@@ -83,7 +99,25 @@ void joinBounds(Exchange const &exchange, double *bounds, int count)
     }
 }
 
-View<double *[2 * num_stage_fields]> fieldRanges(Input const &in, Classes const &classes, Exchange const &exchange)
+View<int *> rimCells(Mesh const &mesh)
+{
+  View<int *> const rim = scratch<int *>("rimCells", mesh.num_cells);
+  int count = 0;
+  Kokkos::parallel_scan(
+      "Harmos::remap::rimCells", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &sum, bool last) {
+        if (mesh.cell_depth(cell) != 0 || !isAtRim(mesh, cell))
+          return;
+        if (last)
+          rim(sum) = cell;
+        ++sum;
+      },
+      count);
+  return Kokkos::subview(rim, std::make_pair(0, count));
+}
+
+View<double *[2 * num_stage_fields]> fieldRanges(Input const &in, Classes const &classes, View<int *> const &rim,
+                                                 Exchange const &exchange)
 {
   if (in.options.limiter != RemapLimiter::RangeInside || in.options.order == 1)
     return {};
@@ -91,7 +125,7 @@ View<double *[2 * num_stage_fields]> fieldRanges(Input const &in, Classes const 
   std::vector<double> all(static_cast<std::size_t>(2 * count * materials));
   for (int m = 0; m < materials; ++m)
   {
-    Bounds const bounds = boundsOf(in, classes, m);
+    Bounds const bounds = boundsOf(in, classes, rim, m);
     double *const row = &all[static_cast<std::size_t>(2 * count * m)];
     bounds.least.store(row);
     bounds.largest.store(row + count);

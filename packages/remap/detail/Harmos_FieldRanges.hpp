@@ -11,11 +11,15 @@ namespace Harmos
 namespace RemapDetail
 {
 
+/// The owned cells at the boundary of the mesh and their vertex neighbours, ascending.
+View<int *> rimCells(Mesh const &mesh);
+
 /// By material, the least (columns 0 .. 15) and the largest (16 .. 31) values of the stage fields in the moved pure
-/// cells of all ranks: what RemapLimiter::RangeInside allows in cells at the mesh's boundary. Kinetic energy has no
-/// such range, nor has a material without pure cells: 1e300, -1e300. Extent 0 with other limiters and at first order.
-/// Collective.
-View<double * [2 * num_stage_fields]> fieldRanges(Input const &in, Classes const &classes, Exchange const &exchange);
+/// cells at the rim of the mesh, of all ranks: how far RemapLimiter::RangeInside goes beyond the range of the donors
+/// around. Kinetic energy has no such range, nor has a material without pure cells there: 1e300, -1e300. Extent 0 with
+/// other limiters and at first order. Collective.
+View<double * [2 * num_stage_fields]> fieldRanges(Input const &in, Classes const &classes, View<int *> const &rim,
+                                                  Exchange const &exchange);
 
 /// The least and the largest of all ranks.
 /// \param bounds Least values, and largest ones with the sign changed. Collective.

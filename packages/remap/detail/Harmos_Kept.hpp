@@ -17,6 +17,7 @@ struct Kept
   SweptChunks chunks;
   SweptWindow window;
   NeighbourLinks links;
+  View<int *> rim;         // rimCells
   bool boxed = false;      // their boxes are the mesh's
   bool moved_mesh = false; // the boxes are of a mesh that is not the caller's for good
 

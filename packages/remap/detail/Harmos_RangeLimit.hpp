@@ -23,6 +23,18 @@ KOKKOS_FORCEINLINE_FUNCTION T partWithin(T const &least, T const &most, T const 
   return Math::max(Math::min(up, down), T(0.0));
 }
 
+/// Widen a range by what lies beyond the boundary of the mesh, as far as anyone knows: the value of the cell opposite,
+/// mirrored at one's own, where it is between least and largest.
+/// \tparam T double or Pack
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void widenByMirrored(T const &q, T const &opposite, T const &least, T const &largest,
+                                                 T &lower, T &upper)
+{
+  T const mirrored = 2.0 * q - opposite;
+  lower = Math::min(lower, Math::max(mirrored, least));
+  upper = Math::max(upper, Math::min(mirrored, largest));
+}
+
 } // namespace RemapDetail
 } // namespace Harmos
 

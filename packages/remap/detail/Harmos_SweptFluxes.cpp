@@ -2,6 +2,7 @@
 #include <detail/Harmos_SweptStage.hpp>
 
 #include <Harmos_Select.hpp>
+#include <detail/Harmos_RangeLimit.hpp>
 
 namespace Harmos
 {
@@ -42,7 +43,7 @@ struct Directions
 struct Beyond
 {
   Pack x[4], y[4];
-  bool at_boundary = false; // some cells are, and the limiter takes the material's range there
+  bool at_boundary = false; // some cells are
 };
 
 template <RemapLimiter limiter>
@@ -187,19 +188,17 @@ struct SweptFluxFunctor
     return out;
   }
 
-  /// The range of cells at the boundary of the mesh is that of their material.
-  KOKKOS_FORCEINLINE_FUNCTION void widen(int first, int field, Field &f) const
+  /// At the boundary of the mesh. \param p Beyond the faces.
+  HARMOS_RARE_FUNCTION void widen(int first, int field, Pack const (&p)[4], Field &f) const
   {
     double lower[pack_width], upper[pack_width];
     storePack(lower, f.lower);
     storePack(upper, f.upper);
     for (int lane = 0; lane < pack_width && first + lane < end; ++lane)
-    {
-      if (!stage.takesRangeOfAll(first + lane))
-        continue;
-      lower[lane] = Math::min(lower[lane], stage.leastOf(first + lane)[field]);
-      upper[lane] = Math::max(upper[lane], stage.largestOf(first + lane)[field]);
-    }
+      for (int k = 0; k < 4; ++k)
+        if (stage.takesRangeOfAll(first + lane) && (stage.flags[first + lane] & NeighbourBit << k) == 0)
+          widenByMirrored(laneOf(f.q, lane), laneOf(p[(k + 2) & 3], lane), stage.leastOf(first + lane)[field],
+                          stage.largestOf(first + lane)[field], lower[lane], upper[lane]);
     f.lower = loadPack(lower);
     f.upper = loadPack(upper);
   }
@@ -215,7 +214,7 @@ struct SweptFluxFunctor
       p[k] = columns.load(k, FieldColumn + field);
     Field f = differentiate(directions, q, p);
     if (offset.at_boundary)
-      widen(first, field, f);
+      widen(first, field, p, f);
     Pack const part = limit(f, offset, p, out, weight, per_staying, deviation);
     for (int i = 0; i < out.count; ++i)
       storePack(out.face[i] + (1 + field) * stage.stride, weight[i] * (q + part * deviation[i]));
@@ -257,7 +256,7 @@ struct SweptFluxFunctor
       density[k] = columns.load(k, FieldColumn + DensityField);
     Field f = differentiate(directions, rho, density);
     if (offset.at_boundary)
-      widen(first, DensityField, f);
+      widen(first, DensityField, density, f);
     Pack const part = limit(f, offset, density, out, out.volume, per_volume, deviation);
     Pack staying_mass = out.moved_volume * rho;
     for (int i = 0; i < out.count; ++i)

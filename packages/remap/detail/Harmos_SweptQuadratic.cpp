@@ -159,11 +159,11 @@ struct SweptQuadraticFunctor
       d.upper = greater(d.upper, value);
       fit.add(spreadOf(neighbour), 1.0, value - d.q);
     }
-    if (stage.takesRangeOfAll(d.cell))
-    {
-      d.lower = lesser(d.lower, FieldPack(stage.leastOf(d.cell)));
-      d.upper = greater(d.upper, FieldPack(stage.largestOf(d.cell)));
-    }
+    for (int k = 0; k < 4; ++k)
+      if (stage.takesRangeOfAll(d.cell) && (stage.flags[d.cell] & NeighbourBit << k) == 0 &&
+          stage.sameBeyond(d.cell, (k + 2) & 3))
+        PolynomialFinder::widenFields(d.q, valueOf(stage.face_neighbour(d.cell, (k + 2) & 3) >> 2),
+                                      stage.leastOf(d.cell), stage.largestOf(d.cell), d.lower, d.upper);
     bool const fitted = fit.solve();
     for (int i = 0; i < 5; ++i)
       d.coefficient[i] = fitted ? fit.right[i] : FieldPack(0.0);

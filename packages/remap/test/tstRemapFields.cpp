@@ -94,6 +94,40 @@ RemapOptions optionsOf(int order, RemapLimiter limiter)
   return options;
 }
 
+/// Least and largest value of field 0 in what bounds the donors of a cell.
+struct Extent
+{
+  double low = 1e300, high = -1e300;
+
+  void join(double value)
+  {
+    low = std::fmin(low, value);
+    high = std::fmax(high, value);
+  }
+};
+
+void joinDonor(Mesh const &mesh, CellFields const &fields, int donor, bool mirrors, Extent &extent)
+{
+  double const q = fields.value(donor, 0);
+  extent.join(q);
+  for (int j = mesh.cell_neighbour.offset(donor); j < mesh.cell_neighbour.offset(donor + 1); ++j)
+    extent.join(fields.value(mesh.cell_neighbour.item(j), 0));
+  for (int k = 0; mirrors && k < 4; ++k)
+    if (mesh.face_neighbour(donor, k) < 0)
+      extent.join(2.0 * q - fields.value(mesh.face_neighbour(donor, (k + 2) % 4) / 4, 0));
+}
+
+/// The cell and its vertex neighbours are the donors; their neighbours bound them, at the boundary of the mesh the
+/// mirrored values of the cells opposite too.
+Extent extentOfDonors(Mesh const &mesh, CellFields const &fields, int cell, bool mirrors)
+{
+  Extent extent;
+  joinDonor(mesh, fields, cell, mirrors, extent);
+  for (int j = mesh.cell_neighbour.offset(cell); j < mesh.cell_neighbour.offset(cell + 1); ++j)
+    joinDonor(mesh, fields, mesh.cell_neighbour.item(j), mirrors, extent);
+  return extent;
+}
+
 } // namespace
 
 TEST(Fields, constantAndLinearOnesOnRandomMeshes_areExact)
@@ -111,34 +145,25 @@ TEST(Fields, constantAndLinearOnesOnRandomMeshes_areExact)
 
 TEST(Fields, randomOnesOnRandomMeshes_stayInRangeAndKeepTheirSum)
 {
-  for (unsigned seed = 1; seed <= 10; ++seed)
-  {
-    Mesh const from = startMesh(16, 0.03 * seed), to = shiftedMesh(regularMesh(16), 0.03 * seed / 16);
-    CellFields const before = noiseIn(from, seed);
-    CellFields const after = remapped(from, to, before, optionsOf(2, RemapLimiter::Range));
-    CellFields const free = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
-    EXPECT_NEAR(total(to, after, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
-    EXPECT_NEAR(total(to, free, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
-    double beyond = 0.0;
-    for (int cell = 0; cell < to.num_cells; ++cell)
+  for (RemapLimiter limiter : {RemapLimiter::Range, RemapLimiter::RangeInside})
+    for (unsigned seed = 1; seed <= 10; ++seed)
     {
-      double low = before.value(cell, 0), high = low;
-      // the donors of a cell are its neighbours, and theirs bound them
-      for (int j = to.cell_neighbour.offset(cell); j < to.cell_neighbour.offset(cell + 1); ++j)
+      Mesh const from = startMesh(16, 0.03 * seed), to = shiftedMesh(regularMesh(16), 0.03 * seed / 16);
+      CellFields const before = noiseIn(from, seed);
+      CellFields const after = remapped(from, to, before, optionsOf(2, limiter));
+      CellFields const free = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
+      EXPECT_NEAR(total(to, after, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
+      EXPECT_NEAR(total(to, free, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
+      double beyond = 0.0;
+      for (int cell = 0; cell < to.num_cells; ++cell)
       {
-        int const donor = to.cell_neighbour.item(j);
-        for (int i = to.cell_neighbour.offset(donor); i < to.cell_neighbour.offset(donor + 1); ++i)
-        {
-          low = std::fmin(low, before.value(to.cell_neighbour.item(i), 0));
-          high = std::fmax(high, before.value(to.cell_neighbour.item(i), 0));
-        }
+        Extent const extent = extentOfDonors(to, before, cell, limiter == RemapLimiter::RangeInside);
+        EXPECT_GE(after.value(cell, 0), extent.low - 1e-12);
+        EXPECT_LE(after.value(cell, 0), extent.high + 1e-12);
+        beyond = std::fmax(beyond, std::fmax(extent.low - free.value(cell, 0), free.value(cell, 0) - extent.high));
       }
-      EXPECT_GE(after.value(cell, 0), low - 1e-12);
-      EXPECT_LE(after.value(cell, 0), high + 1e-12);
-      beyond = std::fmax(beyond, std::fmax(low - free.value(cell, 0), free.value(cell, 0) - high));
+      EXPECT_GT(beyond, seed > 3 ? 1e-3 : -1.0);
     }
-    EXPECT_GT(beyond, seed > 3 ? 1e-3 : -1.0);
-  }
 }
 
 TEST(Fields, smoothOnesOnRandomMeshes_areOfSecondOrder)
