@@ -88,7 +88,8 @@ bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions co
 
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
-                            std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange)
+                            std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
+                            Motion const &before, double dt)
 {
   if (options.method == ConstraintMethod::Nodal || options.method == ConstraintMethod::Merged)
   {
@@ -106,7 +107,8 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
     return {};
   SegmentBins const bins = binSegments(segments, largest);
   View<RayHit *> const hit = castRays(mesh, segments, bins);
-  ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, conditions, table, bonds, options);
+  ContactRows rows =
+      buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, conditions, table, bonds, options, before, dt);
   exchange.sum(&rows.num_multipliers, 1);
   if (rows.num_multipliers > 0)
     exchangeContactRows(mesh, pairs, table, exchange, rows);
@@ -134,15 +136,15 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   report.bond_load.assign(bonds.size(), BondLoad());
 
   BodyTable const table = buildBodyTable(bodies, num_materials);
-  ContactRows const rows =
-      findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange);
+  BodyTable const table_n = buildBodyTable(bodies_n, num_materials);
+  ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
+                                           {velocity_n, table_n}, dt);
   report.rows = rows.num_multipliers;
   if (rows.num_multipliers == 0)
   {
     writeHalf(mesh, dof_nodes, predicted, table, half);
     return report;
   }
-  BodyTable const table_n = buildBodyTable(bodies_n, num_materials);
   ContactSystem const system =
       buildContactSystem(rows, dof_nodes, conditions, dof_mass, {velocity_n, table_n}, {predicted, table}, bodies, dt);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;

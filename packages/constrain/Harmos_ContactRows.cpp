@@ -63,11 +63,10 @@ FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayH
 }
 
 /// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
-/// `target` is what the segment's ray meets, a segment of another material (no wall).
+/// `target` is what the ray of s (a segment or a part of one) meets, a segment of another material (no wall).
 KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, FacingSegments const &facing,
-                                             double shortest, int slave, int target)
+                                             double shortest, InterfaceSegment const &s, int target)
 {
-  InterfaceSegment const &s = segment(slave);
   double const h = s.cell_size, inverse_h = 1.0 / h;
   int const material_a = s.material, material_b = segment(target).material;
   FitSamples samples;
@@ -93,6 +92,17 @@ KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &seg
   return fitNormal(samples, normalised(s.normal - segment(target).normal));
 }
 
+/// The rows of a segment, before they are written.
+struct PlannedRows
+{
+  int count; // 0, 1 or 2
+  Vector2 normal[2];
+  RayHit hit[2];
+};
+
+/// More than this an end of a segment with one row may not close in a step. [cells]
+constexpr double most_closing = 1e-3;
+
 struct RowBuilder
 {
   Mesh mesh;
@@ -104,9 +114,11 @@ struct RowBuilder
   BodyTable bodies;
   View<Boundary *> boundary;
   View<Bond *> bond;
-  View<PairInteraction **> interaction;
-  double shortest_segment;
-  double exposed_face;
+  ConstraintOptions options;
+  SegmentBins bins;
+  int num_segments;
+  Motion before;
+  double dt;
 
   KOKKOS_INLINE_FUNCTION int bodyOf(int material) const { return material < 0 ? -2 : bodies.of_material(material); }
 
@@ -122,7 +134,8 @@ struct RowBuilder
   {
     InterfaceSegment const &a = segment(i);
     if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0 ||
-        a.parts * a.length < shortest_segment * a.cell_size || (a.face >= 0 && a.exposed < exposed_face))
+        a.parts * a.length < options.shortest_segment * a.cell_size ||
+        (a.face >= 0 && a.exposed < options.exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))))
@@ -131,15 +144,89 @@ struct RowBuilder
     return b.material < 0 || dof_nodes.material(pairs.dof_node(a.pair, 0)) != -1;
   }
 
-  /// The normal of a segment's row; zero where it carries none.
-  KOKKOS_INLINE_FUNCTION Vector2 rowNormal(int i) const
+  /// The normal of the row of a segment, or a part of one, that faces another; zero where it carries none.
+  KOKKOS_INLINE_FUNCTION Vector2 rowNormal(InterfaceSegment const &a, int facing_it) const
   {
-    Vector2 const none{0.0, 0.0};
+    InterfaceSegment const &b = segment(facing_it);
+    Vector2 const n =
+        b.material < 0 ? -b.normal : contactNormal(segment, facing, options.shortest_segment, a, facing_it);
+    return dot(a.normal, n) < fit_least_cosine ? Vector2{0.0, 0.0} : n;
+  }
+
+  /// Of the material of a segment, at v^{n-1/2}.
+  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(InterfaceSegment const &s, Vector2 const &point) const
+  {
+    int const body = bodyOf(s.material);
+    if (body >= 0)
+      return before.bodies.body(body).velocityAt(point);
+    Vector2 v{0.0, 0.0};
+    if (body == -2)
+      return v;
+    double weight[4];
+    shapeFunctionsAt(cellQuadrilateral(mesh, s.cell), point, weight);
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = pairs.dof_node(s.pair, k);
+      v += weight[k] * Vector2{before.velocity(dof, 0), before.velocity(dof, 1)};
+    }
+    return v;
+  }
+
+  /// Whether an end of a segment comes fast towards what the segment faces.
+  KOKKOS_INLINE_FUNCTION bool endCloses(InterfaceSegment const &a, RayHit const &to) const
+  {
+    InterfaceSegment const &b = segment(to.segment);
+    if (!(dt > 0.0) || options.placement != Placement::Midpoint || a.parts > 1 ||
+        (b.material >= 0 && options.interaction(a.material, b.material).kind == Interaction::Bonded))
+      return false;
+    double closing = 0.0;
+    for (double const side : {-0.5, 0.5})
+    {
+      Vector2 const end = a.midpoint + (side * a.length) * perpendicular(a.normal);
+      Vector2 const across = end + to.gap * a.normal;
+      closing = Math::max(closing, dot(a.normal, velocityAt(a, end) - velocityAt(b, across)));
+    }
+    return closing * dt > most_closing * a.cell_size;
+  }
+
+  /// A half of a segment, with its Gauss point of the whole.
+  static KOKKOS_INLINE_FUNCTION InterfaceSegment halfOf(InterfaceSegment const &whole, int half)
+  {
+    Vector2 const along = (half == 0 ? whole.length : -whole.length) * perpendicular(whole.normal);
+    InterfaceSegment s = whole;
+    s.midpoint = whole.midpoint + 0.25 * along;
+    s.point = whole.midpoint + (0.5 - gauss_point) * along;
+    s.length = 0.5 * whole.length;
+    s.parts = 2;
+    return s;
+  }
+
+  KOKKOS_INLINE_FUNCTION PlannedRows plan(int i) const
+  {
+    PlannedRows rows = {};
     if (!carriesRow(i))
-      return none;
-    InterfaceSegment const &b = segment(hit(i).segment);
-    Vector2 const n = b.material < 0 ? -b.normal : contactNormal(segment, facing, shortest_segment, i, hit(i).segment);
-    return dot(segment(i).normal, n) < fit_least_cosine ? none : n;
+      return rows;
+    rows.hit[0] = hit(i);
+    rows.normal[0] = rowNormal(segment(i), hit(i).segment);
+    if (rows.normal[0][0] == 0.0 && rows.normal[0][1] == 0.0)
+      return rows;
+    rows.count = 1;
+    if (!endCloses(segment(i), hit(i)))
+      return rows;
+    PlannedRows two = {};
+    for (; two.count < 2; ++two.count)
+    {
+      InterfaceSegment const s = halfOf(segment(i), two.count);
+      RayHit const to = castRay(mesh, segment, num_segments, bins, s, i);
+      if (to.segment < 0 || segment(to.segment).material != segment(hit(i).segment).material)
+        return rows;
+      Vector2 const n = rowNormal(s, to.segment);
+      if (n[0] == 0.0 && n[1] == 0.0)
+        return rows;
+      two.hit[two.count] = to;
+      two.normal[two.count] = n;
+    }
+    return two;
   }
 
   KOKKOS_INLINE_FUNCTION void fillSide(InterfaceSegment const &s, Vector2 const &point, int body, int dof[4],
@@ -177,7 +264,7 @@ struct RowBuilder
       row.friction = boundary(mesh.face_boundary(b.cell, b.face)).friction;
       return;
     }
-    PairInteraction const &law = interaction(row.material_a, row.material_b);
+    PairInteraction const &law = options.interaction(row.material_a, row.material_b);
     row.restitution = law.restitution;
     if (law.kind == Interaction::Friction)
       row.friction = law.friction;
@@ -192,12 +279,12 @@ struct RowBuilder
       row.tied = 1;
   }
 
-  KOKKOS_INLINE_FUNCTION ContactRow makeRow(int i, Vector2 const &normal) const
+  KOKKOS_INLINE_FUNCTION ContactRow makeRow(int i, PlannedRows const &rows, int half) const
   {
-    InterfaceSegment const &a = segment(i);
-    InterfaceSegment const &b = segment(hit(i).segment);
+    InterfaceSegment const a = rows.count == 2 ? halfOf(segment(i), half) : segment(i);
+    InterfaceSegment const &b = segment(rows.hit[half].segment);
     ContactRow row = {};
-    row.key = mesh.cell_global(a.cell) * max_cell_segments + a.number;
+    row.key = mesh.cell_global(a.cell) * max_cell_rows + 2 * a.number + half;
     row.material_a = a.material;
     row.material_b = b.material;
     row.body_a = bodyOf(a.material);
@@ -205,8 +292,8 @@ struct RowBuilder
     row.cell_a = a.cell;
     row.cell_b = b.cell;
     row.point = a.point;
-    row.normal = normal;
-    row.gap = hit(i).gap;
+    row.normal = rows.normal[half];
+    row.gap = rows.hit[half].gap;
     row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
     setInteraction(b, row);
     fillSide(a, a.point, row.body_a, row.dof_a, row.weight_a);
@@ -220,7 +307,8 @@ struct RowBuilder
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                              InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
                              BoundaryConditions const &conditions, BodyTable const &bodies,
-                             std::vector<Bond> const &bonds, ConstraintOptions const &options)
+                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Motion const &before,
+                             double dt)
 {
   RowBuilder const builder{mesh,
                            pairs,
@@ -231,27 +319,25 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                            bodies,
                            conditions.boundary,
                            deviceCopy("Harmos::constrain::bond", bonds),
-                           options.interaction,
-                           options.shortest_segment,
-                           options.exposed_face};
-  View<double *[2]> const normal(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::normal"),
-                                 segments.count);
+                           options,
+                           bins,
+                           segments.count,
+                           before,
+                           dt};
+  View<PlannedRows *> const planned(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::planned"),
+                                    segments.count);
   Kokkos::parallel_for(
-      "Harmos::constrain::fitNormals", RangePolicy(0, segments.count), KOKKOS_LAMBDA(int i) {
-        Vector2 const n = builder.rowNormal(i);
-        normal(i, 0) = n[0];
-        normal(i, 1) = n[1];
-      });
+      "Harmos::constrain::planRows", RangePolicy(0, segments.count),
+      KOKKOS_LAMBDA(int i) { planned(i) = builder.plan(i); });
   View<int *> const place(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::row_place"),
                           segments.count);
   ContactRows rows;
   Kokkos::parallel_scan(
       "Harmos::constrain::countRows", RangePolicy(0, segments.count),
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
-        bool const carries = normal(i, 0) != 0.0 || normal(i, 1) != 0.0;
         if (final)
-          place(i) = carries ? sum : -1;
-        sum += carries ? 1 : 0;
+          place(i) = sum;
+        sum += planned(i).count;
       },
       rows.count);
   rows.num_own = rows.count;
@@ -262,12 +348,13 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
   Kokkos::parallel_reduce(
       "Harmos::constrain::makeRows", RangePolicy(0, segments.count),
       KOKKOS_LAMBDA(int i, long long &multipliers) {
-        int const r = place(i);
-        if (r < 0)
-          return;
-        row(r) = builder.makeRow(i, {normal(i, 0), normal(i, 1)});
-        own(r) = r;
-        multipliers += row(r).tied || row(r).friction > 0.0 ? 2 : 1;
+        for (int half = 0; half < planned(i).count; ++half)
+        {
+          int const r = place(i) + half;
+          row(r) = builder.makeRow(i, planned(i), half);
+          own(r) = r;
+          multipliers += row(r).tied || row(r).friction > 0.0 ? 2 : 1;
+        }
       },
       rows.num_multipliers);
   return rows;

@@ -42,20 +42,36 @@ struct BodyTable
   }
 };
 
+/// Velocities and rigid bodies at one time.
+struct Motion
+{
+  View<double *[2]> velocity; // dof nodes [m/s]
+  BodyTable bodies;
+};
+
+/// Numbers of the rows of one cell are below this; key = global cell * max_cell_rows + number.
+constexpr int max_cell_rows = 2 * max_cell_segments;
+
 /// Room for packed rows of `width` numbers; `total` = the last of the offsets.
 PackedRows packedRows(View<int *> const &offset, int total, int width);
 
 BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials);
 
-/// One row for every owned slave segment that carries one.
+/// One row for every owned slave segment that carries one, or two: a facet that comes up tilted is through with one end
+/// while its middle is still apart, and leaves an overlap of length^2 tan(tilt) / 8. So where an end closes by more
+/// than 1e-3 cells in the step, at v^{n-1/2}, two rows stand at the Gauss points in the place of one in the middle
+/// (Placement::Midpoint, no bond). Where bodies have met they do not close, and one row is best conditioned.
 ///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
 /// on segments shorter than shortest_segment, on cell faces exposed by less than exposed_face, between driven bodies,
 /// between sides that share their dof nodes, and where the segment's own normal is over 45 degrees off the fitted one.
+///
+/// \param before v^{n-1/2} \param dt Of the step; 0: no motion is known.
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                              InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
                              BoundaryConditions const &conditions, BodyTable const &bodies,
-                             std::vector<Bond> const &bonds, ConstraintOptions const &options);
+                             std::vector<Bond> const &bonds, ConstraintOptions const &options,
+                             Motion const &before = {}, double dt = 0.0);
 
 /// One row for every two materials that move a node (Merged: for every two that follow each other in its list, tied),
 /// where they move it: G v = n . (v_b - v_a) of the node's own dofs, n the direction from the volume of a to that of b
@@ -69,7 +85,8 @@ ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
 /// interface on any rank one reduction tells that there are none. Collective.
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
-                            std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange);
+                            std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
+                            Motion const &before = {}, double dt = 0.0);
 
 /// Give every rank the rows of its halo to depth row_halo. With one rank: nothing.
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,

@@ -113,13 +113,6 @@ KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<doub
   return relative;
 }
 
-/// Velocities and rigid bodies at one time.
-struct Motion
-{
-  View<double *[2]> velocity; // dof nodes [m/s]
-  BodyTable bodies;
-};
-
 /// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,

@@ -12,10 +12,6 @@ namespace
 // Shorter pieces, and distances to a line, count as nothing. [cell sizes]
 constexpr double negligible = 1e-8;
 
-// Distance of a free face's two points from its corners, part of its length: Gauss points. Nearer to the corners they
-// condition the rows better, but let a corner of the other body sink deeper between them.
-constexpr double gauss_point = 0.21132486540518713;
-
 constexpr int max_covers = 2 * max_components;
 
 /// What lies beyond an edge: intervals of arc length, each of one material.

@@ -9,8 +9,12 @@
 namespace Harmos
 {
 
-/// Segments of one cell are numbered below this; key = global cell * max_cell_segments + number.
+/// Segments of one cell are numbered below this.
 constexpr int max_cell_segments = 64;
+
+/// Distance of two points of a piece from its ends, part of its length: Gauss points. Nearer to the ends they condition
+/// the rows better, but let a corner of the other body sink deeper between them.
+constexpr double gauss_point = 0.21132486540518713;
 
 /// A straight piece of a filled region's boundary that does not face the same material, or of a contact wall.
 struct InterfaceSegment

@@ -10,8 +10,8 @@ namespace Harmos
 namespace
 {
 
-/// Rows of one corner of a cell are numbered below this, so that a cell's are below max_cell_segments.
-constexpr int max_corner_rows = max_cell_segments / 4;
+/// Rows of one corner of a cell are numbered below this, so that a cell's are below max_cell_rows.
+constexpr int max_corner_rows = max_cell_rows / 4;
 
 struct NodalRowBuilder
 {
@@ -84,7 +84,7 @@ struct NodalRowBuilder
           if (firstCell(node, a) == 4 * cell + corner)
           {
             ContactRow row = {};
-            row.key = mesh.cell_global(cell) * max_cell_segments + corner * max_corner_rows + number++;
+            row.key = mesh.cell_global(cell) * max_cell_rows + corner * max_corner_rows + number++;
             if (fill(cell, corner, a, dof_nodes.material(j), row))
               visit(row);
           }

@@ -37,6 +37,81 @@ KOKKOS_INLINE_FUNCTION bool crossSegment(Vector2 const &origin, Vector2 const &d
   return Math::fabs(along) <= 0.5 * target.length + 1e-7 * target.cell_size;
 }
 
+KOKKOS_INLINE_FUNCTION bool shareNode(Mesh const &mesh, int cell, int other)
+{
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (mesh.cell_node(cell, i) == mesh.cell_node(other, j))
+        return true;
+  return false;
+}
+
+/// A ray on its way: the nearest crossing so far, ties to the lower number. What it meets in the end does not depend on
+/// the order in which it is offered the targets.
+struct Ray
+{
+  InterfaceSegment const &from;
+  double nearest;
+  RayHit hit;
+
+  KOKKOS_INLINE_FUNCTION explicit Ray(InterfaceSegment const &s) : from(s), nearest(s.cell_size), hit{-1, 0.0, 0.0} {}
+
+  template <class Segment>
+  KOKKOS_INLINE_FUNCTION void offer(Mesh const &mesh, Segment const &target, int number)
+  {
+    if (target.material == from.material)
+      return;
+    Vector2 const apart_by = target.midpoint - from.point;
+    double const farthest = nearest + 0.5 * target.length + 1e-6 * target.cell_size;
+    double distance;
+    if (dot(apart_by, apart_by) > farthest * farthest || !crossSegment(from.point, from.normal, target, distance))
+      return;
+    double const apart = Math::fabs(distance);
+    if (apart > nearest || (apart == nearest && hit.segment >= 0 && number > hit.segment))
+      return;
+    if (distance < -1e-7 * from.cell_size &&
+        (apart > deepest_overlap * from.cell_size || shareNode(mesh, from.cell, target.cell)))
+      return;
+    nearest = apart;
+    hit = {number, Math::max(distance, 0.0), -dot(from.normal, target.normal)};
+  }
+
+  /// The box of midpoints of segments that the rest of the ray can meet.
+  KOKKOS_INLINE_FUNCTION void box(double reach, Vector2 &low, Vector2 &high) const
+  {
+    Vector2 const tail = from.point - Math::min(nearest, deepest_overlap * from.cell_size) * from.normal;
+    Vector2 const head = from.point + nearest * from.normal;
+    for (int d = 0; d < 2; ++d)
+    {
+      low[d] = Math::min(tail[d], head[d]) - reach;
+      high[d] = Math::max(tail[d], head[d]) + reach;
+    }
+  }
+};
+
+/// The normal ray of a segment's point. \param from Segment `number`, or a part of it.
+KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *> const &segment, int count,
+                                      SegmentBins const &bins, InterfaceSegment const &from, int number)
+{
+  Ray ray(from);
+  int const cell = from.cell;
+  if (from.material < 0)
+    return ray.hit;
+  // The own cell's segments first: where the interface is shared the ray ends at once.
+  constexpr double shared = 1e-10; // apart, of the cell
+  for (int to = number - 1; to >= 0 && segment(to).cell == cell; --to)
+    ray.offer(mesh, segment(to), to);
+  for (int to = number + 1; to < count && segment(to).cell == cell; ++to)
+    ray.offer(mesh, segment(to), to);
+  if (ray.hit.segment >= 0 && ray.nearest <= shared * from.cell_size)
+    return ray.hit;
+  Vector2 low, high;
+  ray.box(0.52 * bins.size, low, high); // half the longest segment and a little
+  if (bins.holdOthers(low, high, from.material))
+    bins.forEach(low, high, [&](int, BinnedSegment const &target) { ray.offer(mesh, target, target.segment); });
+  return ray.hit;
+}
+
 /// Cast the normal ray of every segment of a material to the nearest facing segment of another material or wall, within
 /// one cell size: finds a shared interface edge, two regions that meet on a face, a gap in a cell and a gap across
 /// cells alike.

@@ -75,7 +75,7 @@ KOKKOS_INLINE_FUNCTION bool unpackRow(Mesh const &mesh, CellMaterialPairs const 
 {
   row = {};
   row.key = static_cast<long long>(item(i, ItemKey));
-  row.cell_a = localCell(mesh, row.key / max_cell_segments);
+  row.cell_a = localCell(mesh, row.key / max_cell_rows);
   row.cell_b = localCell(mesh, static_cast<long long>(item(i, ItemCellB)));
   row.material_a = static_cast<int>(item(i, ItemMaterialA));
   row.material_b = static_cast<int>(item(i, ItemMaterialB));

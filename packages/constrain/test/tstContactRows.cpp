@@ -12,14 +12,16 @@ using namespace HarmosTest;
 namespace
 {
 
-std::vector<ContactRow> rowsOf(TinyScene const &scene)
+/// \param dt The step over which segments with closing ends get two rows; 0: none do.
+std::vector<ContactRow> rowsOf(TinyScene const &scene, double dt = 0.0)
 {
   InterfaceSegments const s =
       findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
   SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
   BodyTable const bodies = buildBodyTable({}, static_cast<int>(scene.options.interaction.extent(0)));
-  ContactRows const rows = buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins),
-                                            bins, scene.conditions, bodies, scene.bonds, scene.options);
+  ContactRows const rows =
+      buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins), bins,
+                       scene.conditions, bodies, scene.bonds, scene.options, {scene.velocity_n, bodies}, dt);
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
   return std::vector<ContactRow>(host.data(), host.data() + rows.count);
 }
@@ -183,6 +185,93 @@ TEST(ContactRows, keysAscendAndWeightsReproduceThePoints)
     EXPECT_LT(norm(a - rows[i].point), 1e-13);
     EXPECT_LT(norm(b - rows[i].point), 1e-13);
   }
+}
+
+namespace
+{
+
+/// A wedge of 19 degrees, its tip `gap` of a cell below a block; both come at V / 2 against each other.
+TinyScene wedgeBelowBlock(double gap, double V)
+{
+  TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)),
+                  {polygonBody(0, {{0, 0}, {8, 0}, {8, 2.0}, {4, 3.4}, {0, 2.0}}), boxBody(1, 0, 3.4 + gap, 8, 8)}, 2,
+                  open_box);
+  scene.dt = 1.0;
+  scene.setVelocity([V](int material, Vector2 const &) { return Vector2{0.0, material == 0 ? 0.5 * V : -0.5 * V}; });
+  return scene;
+}
+
+/// A cell's region of a material, moved over the step.
+Region movedRegion(TinyScene const &scene, int pair)
+{
+  Quadrilateral const cell = cellQuadrilateral(scene.mesh, scene.pairs.cell(pair));
+  Region region = scene.regions.region(scene.mesh, scene.pairs, pair);
+  for (int i = 0; i < region.size; ++i)
+  {
+    double weight[4];
+    shapeFunctionsAt(cell, region[i], weight);
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = scene.pairs.dof_node(pair, k);
+      region[i] += (scene.dt * weight[k]) * Vector2{scene.half(dof, 0), scene.half(dof, 1)};
+    }
+  }
+  return region;
+}
+
+/// Area in which moved regions of the two materials overlap.
+double overlapAfterStep(TinyScene const &scene)
+{
+  double sum = 0.0;
+  for (int p = 0; p < scene.pairs.num_pairs; ++p)
+    for (int q = 0; q < scene.pairs.num_pairs; ++q)
+      if (scene.pairs.material(p) == 0 && scene.pairs.material(q) == 1)
+      {
+        Polygon<24> both;
+        clipConvex(movedRegion(scene, p), movedRegion(scene, q), both);
+        sum += area(both);
+      }
+  return sum;
+}
+
+} // namespace
+
+TEST(ContactRows, facetsWhoseEndsCloseFast_haveTwoRows)
+{
+  TinyScene const scene = wedgeBelowBlock(0.1, 0.3);
+  auto const slow = rowsOf(scene, 1e-3), fast = rowsOf(scene, 1.0);
+  EXPECT_EQ(fast.size(), 2 * slow.size());
+  double length[2] = {0.0, 0.0};
+  for (ContactRow const &row : slow)
+    length[0] += row.length;
+  for (std::size_t i = 0; i < fast.size(); ++i)
+  {
+    length[1] += fast[i].length;
+    if (i > 0)
+    {
+      EXPECT_LT(fast[i - 1].key, fast[i].key);
+    }
+    // The gap along the normal of the facet, to y = 3.5.
+    double const cosine = 4.0 / std::hypot(4.0, 1.4);
+    EXPECT_NEAR(fast[i].gap, (3.5 - fast[i].point[1]) / cosine, 1e-12);
+  }
+  EXPECT_NEAR(length[0], length[1], 1e-12);
+}
+
+// A tip that is 0.1 cells away and closes by 0.3 while the facets beside it, in their middle, still have 0.275 to go.
+TEST(ContactRows, tipThatClosesFast_isStopped)
+{
+  TinyScene scene = wedgeBelowBlock(0.1, 0.3);
+  scene.constrain();
+  EXPECT_LT(overlapAfterStep(scene), 0.02); // with rows in the middles alone 0.10
+}
+
+TEST(ContactRows, facetsThatTouchAndDoNotClose_keepOneRow)
+{
+  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
+  TinyScene scene = split(12, [n](Quadrilateral const &) { return Plane2{n, 4.321}; });
+  scene.setVelocity([&](int material, Vector2 const &) { return (material == 0 ? 0.4 : -0.4) * perpendicular(n); });
+  EXPECT_EQ(rowsOf(scene, 1.0).size(), rowsOf(scene).size());
 }
 
 namespace
