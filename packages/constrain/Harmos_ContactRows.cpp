@@ -100,8 +100,9 @@ struct PlannedRows
   RayHit hit[2];
 };
 
-/// More than this an end of a segment with one row may not close in a step. [cells]
-constexpr double most_closing = 1e-3;
+/// More than this an end of a segment with one row may not close in a step: half of the segment then overlaps by
+/// sqrt(2)/4 of it, 0.007 of a cell. What lies on each other, or rolls, keeps one row a segment. [cells]
+constexpr double most_closing = 0.02;
 
 struct RowBuilder
 {

@@ -16,7 +16,8 @@ def test_disc_goes_through_and_everything_is_conserved():
     assert 0.4 < kept < 0.9
     lateral = max(abs(p + out) for p, out in zip(r["momentum_y"], r["outflow_momentum_y"]))
     check("lateral over axial momentum, with what left the mesh", lateral / r.first("momentum_x"), 1e-12)
-    check("overlap of the moved regions, cells over the whole run", r.last("overlap_volume") / 0.00025**2, 1.0)
+    # With one row a facet, where tilted facets are through with their ends, 0.79.
+    check("overlap of the moved regions, cells over the whole run", r.last("overlap_volume") / 0.00025**2, 0.5)
     clean(r)
 
 
