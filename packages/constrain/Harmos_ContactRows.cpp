@@ -100,9 +100,12 @@ struct PlannedRows
   RayHit hit[2];
 };
 
-/// More than this an end of a segment with one row may not close in a step: half of the segment then overlaps by
-/// sqrt(2)/4 of it, 0.007 of a cell. What lies on each other, or rolls, keeps one row a segment. [cells]
-constexpr double most_closing = 0.02;
+/// An end of a segment with one row may come by this in a step: half of the segment then overlaps by sqrt(2)/8 of it,
+/// 0.004 of a cell. What lies on each other, or rolls, keeps one row. [cells]
+constexpr double most_approach = 0.02;
+
+/// An end that is, or gets, ahead of the middle by less goes through with the middle. [cells]
+constexpr double least_lead = 1e-3;
 
 struct RowBuilder
 {
@@ -173,21 +176,32 @@ struct RowBuilder
     return v;
   }
 
-  /// Whether an end of a segment comes fast towards what the segment faces.
-  KOKKOS_INLINE_FUNCTION bool endCloses(InterfaceSegment const &a, RayHit const &to) const
+  /// Speed at which a point of segment a approaches what lies `gap` away along its normal.
+  KOKKOS_INLINE_FUNCTION double closing(InterfaceSegment const &a, InterfaceSegment const &b, Vector2 const &point,
+                                        double gap) const
+  {
+    return dot(a.normal, velocityAt(a, point) - velocityAt(b, point + gap * a.normal));
+  }
+
+  /// Whether in this step an end of a segment would go through what it faces while its middle is held.
+  KOKKOS_INLINE_FUNCTION bool endGoesThrough(InterfaceSegment const &a, RayHit const &to) const
   {
     InterfaceSegment const &b = segment(to.segment);
     if (!(dt > 0.0) || options.placement != Placement::Midpoint || a.parts > 1 ||
         (b.material >= 0 && options.interaction(a.material, b.material).kind == Interaction::Bonded))
       return false;
-    double closing = 0.0;
+    double const slope = dot(a.normal, b.normal);
+    double const middle = dt * closing(a, b, a.midpoint, to.gap);
     for (double const side : {-0.5, 0.5})
     {
       Vector2 const end = a.midpoint + (side * a.length) * perpendicular(a.normal);
-      Vector2 const across = end + to.gap * a.normal;
-      closing = Math::max(closing, dot(a.normal, velocityAt(a, end) - velocityAt(b, across)));
+      double const gap = dot(b.midpoint - end, b.normal) / slope; // to the line of b
+      double const comes = dt * closing(a, b, end, gap);
+      double const lead = (to.gap - gap) + (comes - middle);
+      if (comes > most_approach * a.cell_size && lead > least_lead * a.cell_size)
+        return true;
     }
-    return closing * dt > most_closing * a.cell_size;
+    return false;
   }
 
   /// A half of a segment, with its Gauss point of the whole.
@@ -212,7 +226,7 @@ struct RowBuilder
     if (rows.normal[0][0] == 0.0 && rows.normal[0][1] == 0.0)
       return rows;
     rows.count = 1;
-    if (!endCloses(segment(i), hit(i)))
+    if (!endGoesThrough(segment(i), hit(i)))
       return rows;
     PlannedRows two = {};
     for (; two.count < 2; ++two.count)

@@ -12,7 +12,7 @@ using namespace HarmosTest;
 namespace
 {
 
-/// \param dt The step over which segments with closing ends get two rows; 0: none do.
+/// \param dt The step, in which ends of segments may go through what they face; 0: none do.
 std::vector<ContactRow> rowsOf(TinyScene const &scene, double dt = 0.0)
 {
   InterfaceSegments const s =
@@ -236,7 +236,7 @@ double overlapAfterStep(TinyScene const &scene)
 
 } // namespace
 
-TEST(ContactRows, facetsWhoseEndsCloseFast_haveTwoRows)
+TEST(ContactRows, facetsThatComeFastWithOneEndAhead_haveTwoRows)
 {
   TinyScene const scene = wedgeBelowBlock(0.1, 0.3);
   auto const slow = rowsOf(scene, 1e-3), fast = rowsOf(scene, 1.0);
@@ -264,6 +264,14 @@ TEST(ContactRows, tipThatClosesFast_isStopped)
   TinyScene scene = wedgeBelowBlock(0.1, 0.3);
   scene.constrain();
   EXPECT_LT(overlapAfterStep(scene), 0.02); // with rows in the middles alone 0.10
+}
+
+TEST(ContactRows, parallelFacesThatCloseFast_keepOneRow)
+{
+  TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)), {boxBody(0, 0, 0, 8, 3.4), boxBody(1, 0, 3.5, 8, 8)},
+                  2, open_box);
+  scene.setVelocity([](int material, Vector2 const &) { return Vector2{0.0, material == 0 ? 0.15 : -0.15}; });
+  EXPECT_EQ(rowsOf(scene, 1.0).size(), 8u);
 }
 
 TEST(ContactRows, facetsThatTouchAndDoNotClose_keepOneRow)
