@@ -229,8 +229,8 @@ void addNumerics(ParameterList &list)
         "traction over impedance times closing velocity");
   add(c.sublist("method = multipliers"), "placement", std::string("midpoint"),
       choice({"midpoint", "gauss points", "segment ends", "vital vertices", "mortar"}),
-      "of the multipliers: one on a segment, two, or one for each vital cell edge that the interface crosses, against "
-      "the approach of midpoints or (mortar) its integral");
+      "of the multipliers: one on a segment (two where an end comes fast), two, or one for each vital cell edge that "
+      "the interface crosses, against the approach of midpoints or (mortar) its integral");
   add(c, "solver", std::string("projected newton"), choice({"projected newton", "conjugate gradients", "row sums"}),
       "of the multipliers. projected newton: with a factor of the assembled matrix, on every rank the whole problem; "
       "conjugate gradients: with projections, without a matrix; row sums: the plain iteration with the row sums of the "
