@@ -10,8 +10,8 @@ namespace Harmos
 namespace
 {
 
-/// Rows of one corner of a cell are numbered below this, so that a cell's are below max_cell_rows.
-constexpr int max_corner_rows = max_cell_rows / 4;
+/// Rows of one corner of a cell are numbered below this, so that a cell's are below max_cell_segments.
+constexpr int max_corner_rows = max_cell_segments / 4;
 
 struct NodalRowBuilder
 {
