@@ -175,7 +175,6 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, 
   constexpr int max_iterations = 100; // a dozen to the bracket, 33 halvings of it, and what the secant tries between
   constexpr double least_curvature = 0.1; // of the secant, of Gauss-Newton's: below it the latter is taken
   constexpr double longest_step = 0.5;
-  constexpr double last_step = 1e-8; // what would follow it is round-off
   Vector2 const along = perpendicular(start);
   Vector2 normal = start;
   LineMisfit now = lineMisfit(problem, normal);
@@ -191,12 +190,9 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, 
     if (Math::fabs(now.gradient * step) < 1e-13 * now.value)
       return {normal, now.value, true};
     bool const enclosed = bracket.closed();
-    bool const bisects = enclosed && (slow || !bracket.holds(angle + step));
-    if (bisects)
+    if (enclosed && (slow || !bracket.holds(angle + step)))
       step = 0.5 * (bracket.low + bracket.high) - angle;
     Vector2 const trial = normalised(Math::cos(angle + step) * start + Math::sin(angle + step) * along);
-    if (!bisects && Math::fabs(step) < last_step)
-      return {trial, Math::max(0.0, now.value + now.gradient * step), true};
     LineMisfit const next = lineMisfit(problem, trial);
     if (Math::fabs(step) < 1e-10)
       return next.value < now.value ? LeastSquaresLine{trial, next.value, true}
@@ -256,15 +252,14 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
                                                          ComponentSet inside, ComponentSet outside,
                                                          Vector2 const &fallback)
 {
-  constexpr double poor_misfit = 1e-2;  // a tenth of a cell
-  constexpr double good_misfit = 1e-16; // no other line is looked for
+  constexpr double poor_misfit = 1e-2; // a tenth of a cell
   LeastSquaresLine best{fallback, 1.0, true};
   bool converged = true;
   double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
   CellNeighbours const neighbours(field, components);
   int const sides = Detail::othersNear(field, components, inside | outside) ? 2 : 1;
   for (int start = 0; start < sides && best.misfit > poor_misfit; ++start)
-    for (int side = 0; side < sides && best.misfit > good_misfit; ++side)
+    for (int side = 0; side < sides; ++side)
     {
       ComponentSet const set = side == 0 ? inside : outside;
       Vector2 const gradient = leastSquaresGradient(field, components, neighbours, {set, 0u});
