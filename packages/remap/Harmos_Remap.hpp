@@ -17,7 +17,8 @@ namespace Harmos
 enum class RemapLimiter : int
 {
   Range = 0,       // no value that is remapped leaves the range of the donor and its neighbours
-  RangeInside = 1, // in cells at the mesh's boundary: of all pure cells of the material; elsewhere the same
+  RangeInside = 1, // at the mesh's boundary that goes on to the mirrored value of the cell opposite (decision 0011);
+                   // the default of decks
   VanLeer = 2,     // halfway to each neighbour beyond a face, between the two values; overshoots in two dimensions
   None = 3
 };

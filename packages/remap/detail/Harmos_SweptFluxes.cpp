@@ -196,7 +196,7 @@ struct SweptFluxFunctor
     storePack(upper, f.upper);
     for (int lane = 0; lane < pack_width && first + lane < end; ++lane)
       for (int k = 0; k < 4; ++k)
-        if (stage.takesRangeOfAll(first + lane) && (stage.flags[first + lane] & NeighbourBit << k) == 0)
+        if (stage.endsAt(first + lane, k))
           widenByMirrored(laneOf(f.q, lane), laneOf(p[(k + 2) & 3], lane), stage.leastOf(first + lane)[field],
                           stage.largestOf(first + lane)[field], lower[lane], upper[lane]);
     f.lower = loadPack(lower);
@@ -230,7 +230,7 @@ struct SweptFluxFunctor
       offset.y[k] = columns.load(k, CentroidY) - y;
     }
     for (int cell = first; limiter == RemapLimiter::RangeInside && cell < first + pack_width && cell < end; ++cell)
-      offset.at_boundary = offset.at_boundary || stage.takesRangeOfAll(cell);
+      offset.at_boundary = offset.at_boundary || stage.isAtBoundary(cell);
     return offset;
   }
 

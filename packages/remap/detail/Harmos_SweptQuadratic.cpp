@@ -160,8 +160,7 @@ struct SweptQuadraticFunctor
       fit.add(spreadOf(neighbour), 1.0, value - d.q);
     }
     for (int k = 0; k < 4; ++k)
-      if (stage.takesRangeOfAll(d.cell) && (stage.flags[d.cell] & NeighbourBit << k) == 0 &&
-          stage.sameBeyond(d.cell, (k + 2) & 3))
+      if (stage.endsAt(d.cell, k) && stage.sameBeyond(d.cell, (k + 2) & 3))
         PolynomialFinder::widenFields(d.q, valueOf(stage.face_neighbour(d.cell, (k + 2) & 3) >> 2),
                                       stage.leastOf(d.cell), stage.largestOf(d.cell), d.lower, d.upper);
     bool const fitted = fit.solve();

@@ -126,8 +126,12 @@ struct SweptStage
     return columns + column * stride + (cell & mask);
   }
   KOKKOS_FORCEINLINE_FUNCTION int &blockOf(int cell) const { return block[(cell & mask) / pack_width]; }
-  /// Whether the limiter takes the material's range in a cell: at the boundary of the mesh.
-  KOKKOS_FORCEINLINE_FUNCTION bool takesRangeOfAll(int c) const
+  /// Whether the mesh ends at a face of a pure cell, or at any, and the limiter minds it.
+  KOKKOS_FORCEINLINE_FUNCTION bool endsAt(int c, int face) const
+  {
+    return ranges != nullptr && pure_material[c] >= 0 && (flags[c] & NeighbourBit << face) == 0;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION bool isAtBoundary(int c) const
   {
     constexpr int all_neighbours = 15 * NeighbourBit;
     return ranges != nullptr && pure_material[c] >= 0 && (flags[c] & all_neighbours) != all_neighbours;
@@ -169,8 +173,8 @@ void sweptGeometry(SweptStage const &stage, int begin, int end);
 ///
 /// One scalar limiter a field and cell keeps the values at all outgoing faces, and the mean of what stays in the cell,
 /// within the range of the cell and its face neighbours: so the new values are means of values within range
-/// (RemapLimiter::Range; RangeInside takes the
-/// material's range in cells at the boundary; the others bound what their names say).
+/// (RemapLimiter::Range; RangeInside goes on to
+/// mirrored values at the boundary of the mesh; the others bound what their names say).
 void sweptFluxes(SweptStage const &stage, int begin, int end);
 
 /// The moved cells' spreads, and fluxes of limited quadratics: fitted over the vertex neighbours of the same material,
