@@ -3,7 +3,7 @@
 
 remap_study.py [--finest N] [--resume] [--output FOLDER]: writes remap-study.md, remap.json, remap_resolution.png and
 remap_time.png. About ten minutes on one core with the default. With --resume, what remap.json holds is not run again.
-remap_study.py --time [--output FOLDER]: measures the times alone, some 15 s, and keeps them in remap.json: for a quiet
+remap_study.py --time [--output FOLDER]: measures the times alone, about a minute, and keeps them in remap.json: for a quiet
 machine; then --resume.
 """
 import argparse
@@ -61,13 +61,13 @@ PEER = {
     "One remap from a regular onto a random mesh, 2 + sine": {"32": (2.19e-4, None), "64": (4.39e-5, None), "128": (1.03e-5, None), "256": (2.51e-6, None)},
 }
 AGAINST = ["swept", "swept, third", "intersection", "field intersection", "third", "swept, not limited", "intersection, not limited", "third, not limited"]
-SUMMARY = """Limited (`range`), second order where nothing is said. What is remapped, the means over overlays or swept areas, stays within the range of the donor and its neighbours. At the boundary of the mesh the neighbours are on one side: the sine is steepest there, and the exact mean of a cell that has become thinner lies beyond the values of all its donors. So the range
+SUMMARY = """Limited (`range inside`), second order where nothing is said. What is remapped, the means over overlays or swept areas, stays within the range of the donor and its neighbours. At the boundary of the mesh the neighbours are on one side: the sine is steepest there, and the exact mean of a cell that has become thinner lies beyond the values of all its donors. So the range
 there goes on to the value of the cell opposite, mirrored, but not beyond the values at the mesh's rim: no value leaves the range of the start. The cycle sweeps wherever all is pure."""
 INTRODUCTION = """# The remap alone
 
 One field remapped over moving meshes of the unit square by `harmos remap` (scene `example/remap`), without mechanics. Written by `test/verification/remap_study.py`; the quick part of it is `test/verification/remap.py`.
 
-Orders: first, second where nothing is said, third. Second and third order are limited (`range`) in the cycle's own schemes (swept, intersection, third) and are not in the comparators (interpolation, projections), unless the name says otherwise. Conservation: largest relative change of the sum of f V over all
+Orders: first, second where nothing is said, third. Second and third order are limited (`range inside`) in the cycle's own schemes (swept, intersection, third) and are not in the comparators (interpolation, projections), unless the name says otherwise. Conservation: largest relative change of the sum of f V over all
 steps. Below, above: how far beyond the range of the start f ever went. Five steps for each cell along a side.
 
 ![error against resolution](pictures/remap_resolution.png)
@@ -109,17 +109,17 @@ def table(title, results, sizes):
 
 
 def measure_times(results, save):
-    """Least of three runs, each of ten remaps from random to random mesh."""
+    """Least of two runs, each of ten remaps from random to random mesh."""
     times = results.setdefault("time", {})
     for name, scheme in {**OWN, **COMPARATORS}.items():
         if name not in times:
-            times[name] = min(remap("random.yaml", {**scheme, "cells": "[128.0]", "steps": 10})["cpu_ns_per_cell_step"] for _ in range(3))
+            times[name] = min(remap("random.yaml", {**scheme, "cells": "[128.0]", "steps": 10})["cpu_ns_per_cell_step"] for _ in range(2))
             save()
     return times
 
 
 def time_table(times):
-    lines = ["## Time", "", "Of the processor in one remap from a random to a random mesh of 128 x 128 cells, ns a cell, one core, machine otherwise at rest (`remap_study.py --time`): least of three runs of ten remaps. The cycle's schemes carry eight fields and momentum, `field intersection` and the comparators one field.",
+    lines = ["## Time", "", "Of the processor in one remap from a random to a random mesh of 128 x 128 cells, ns a cell, one core, machine otherwise at rest (`remap_study.py --time`): the least of short runs. The cycle's schemes carry eight fields and momentum, `field intersection` and the comparators one field.",
              "", "| scheme | ns a cell | million cells a second |", "| --- " * 3 + "|"]
     return lines + [f"| {name} | {t:.0f} | {1e3 / t:.2f} |" for name, t in times.items()] + [""]
 
