@@ -91,6 +91,13 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   std::vector<Material> const laws(materials.data(), materials.data() + materials.extent(0));
   if (scene.constraint.impedance.extent(0) == 0)
     scene.constraint.impedance = deviceCopy("impedance", impedances(laws));
+  if (scene.constraint.whole_segment.extent(0) == 0 && scene.kinematics == Kinematics::Xfem)
+  {
+    std::vector<int> whole;
+    for (Material const &law : laws)
+      whole.push_back(law.rigid_body < 0 && actsOnFilledRegion(scene.lagrange.cut_cell_stress, law) ? 1 : 0);
+    scene.constraint.whole_segment = deviceCopy("whole_segment", whole);
+  }
   if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)
     scene.subzone_fraction = subzoneFractions(scene.mesh);
   bool can_fail = false;

@@ -136,6 +136,8 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     prepareWork(s.pairs, s.dof_nodes, work);
     LagrangeOptions options = scene.lagrange;
     options.energy_lag = 0.5 * s.dt; // of the step that lies behind, which the one ahead stands for
+    if (scene.kinematics == Kinematics::Xfem && options.cut_cell_stress != CutCellStress::CellMean)
+      computeCutGradients(mesh, s.pairs, s.regions, work.cut);
     computeCornerForces(mesh, s.pairs, s.state, scene.materials, options, work);
     if (scene.kinematics == Kinematics::Lagrangian)
       addSubzonalForces(mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,

@@ -62,8 +62,9 @@ struct ConstraintOptions
 {
   ConstraintMethod method = ConstraintMethod::Multipliers;
   Placement placement = Placement::Midpoint;
-  double penalty = 1.0;     // Penalty, Nitsche: traction over impedance times velocity
-  View<double *> impedance; // materials: density times longitudinal wave speed [kg/(m^2 s)], 0: rigid
+  double penalty = 1.0;      // Penalty, Nitsche: traction over impedance times velocity
+  View<int *> whole_segment; // materials: 1: its tractions act over whole segments; extent 0: all at their points
+  View<double *> impedance;  // materials: density times longitudinal wave speed [kg/(m^2 s)], 0: rigid
   MultiplierMethod solver = MultiplierMethod::ProjectedNewton;
   bool warm_start = false; // ProjectedNewton, rows with multipliers of their own: from the last cycle's forces
   View<PairInteraction **> interaction; // (materials, materials), symmetric

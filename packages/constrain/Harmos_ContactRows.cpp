@@ -124,6 +124,18 @@ struct RowBuilder
   Motion before;
   double dt;
 
+  KOKKOS_INLINE_FUNCTION bool spreads(int material) const
+  {
+    return material >= 0 && options.whole_segment.extent(0) > 0 && options.whole_segment(material) == 1;
+  }
+
+  /// Whether the traction of segment a acts over all of it: both sides of an interface inside a cell end where it does.
+  KOKKOS_INLINE_FUNCTION bool bearsWhole(InterfaceSegment const &a, int facing_it) const
+  {
+    InterfaceSegment const &b = segment(facing_it);
+    return a.parts == 1 && a.face < 0 && b.cell == a.cell && (spreads(a.material) || spreads(b.material));
+  }
+
   KOKKOS_INLINE_FUNCTION int bodyOf(int material) const { return material < 0 ? -2 : bodies.of_material(material); }
 
   KOKKOS_INLINE_FUNCTION bool isSlave(InterfaceSegment const &a, InterfaceSegment const &b) const
@@ -138,7 +150,7 @@ struct RowBuilder
   {
     InterfaceSegment const &a = segment(i);
     if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0 ||
-        a.parts * a.length < options.shortest_segment * a.cell_size ||
+        (!bearsWhole(a, hit(i).segment) && a.parts * a.length < options.shortest_segment * a.cell_size) ||
         (a.face >= 0 && a.exposed < options.exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
@@ -244,10 +256,29 @@ struct RowBuilder
     return two;
   }
 
-  KOKKOS_INLINE_FUNCTION void fillSide(InterfaceSegment const &s, Vector2 const &point, int body, int dof[4],
-                                       double weight[4]) const
+  /// Weights: the means of the shape functions over the segment middle +- half, as its traction acts on the nodes;
+  /// two Gauss points are exact for bilinear ones, about an axis too. half = 0: their values at a point.
+  KOKKOS_INLINE_FUNCTION void fillSide(InterfaceSegment const &s, Vector2 const &middle, Vector2 const &half, int body,
+                                       int dof[4], double weight[4]) const
   {
-    shapeFunctionsAt(cellQuadrilateral(mesh, s.cell), point, weight);
+    constexpr double gauss = 0.57735026918962576; // 1 / sqrt 3
+    Quadrilateral const q = cellQuadrilateral(mesh, s.cell);
+    AreaWeight const ring = areaWeight(mesh.geometry, {0.0, 0.0});
+    double total = 0.0;
+    for (int k = 0; k < 4; ++k)
+      weight[k] = 0.0;
+    for (double const side : {-gauss, gauss})
+    {
+      Vector2 const x = middle + side * half;
+      double N[4];
+      shapeFunctionsAt(q, x, N);
+      double const part = Math::max(ring.at(x), 1e-300); // a segment may lie on the axis
+      total += part;
+      for (int k = 0; k < 4; ++k)
+        weight[k] += part * N[k];
+    }
+    for (int k = 0; k < 4; ++k)
+      weight[k] /= total;
     for (int k = 0; k < 4; ++k)
       dof[k] = body == -1 ? pairs.dof_node(s.pair, k) : -1;
   }
@@ -311,8 +342,11 @@ struct RowBuilder
     row.gap = rows.hit[half].gap;
     row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
     setInteraction(b, row);
-    fillSide(a, a.point, row.body_a, row.dof_a, row.weight_a);
-    fillSide(b, a.point + row.gap * a.normal, row.body_b, row.dof_b, row.weight_b);
+    bool const whole = bearsWhole(a, rows.hit[half].segment);
+    Vector2 const reach = (whole ? 0.5 * a.length : 0.0) * Vector2{-a.normal[1], a.normal[0]};
+    Vector2 const middle = whole ? a.midpoint : a.point;
+    fillSide(a, middle, reach, row.body_a, row.dof_a, row.weight_a);
+    fillSide(b, middle + row.gap * a.normal, reach, row.body_b, row.dof_b, row.weight_b);
     return row;
   }
 };

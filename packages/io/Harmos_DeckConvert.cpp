@@ -241,6 +241,12 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.lagrange.quadratic_viscosity = list.get<double>("quadratic_viscosity");
   deck.lagrange.hourglass_viscosity = list.get<double>("hourglass_viscosity");
   deck.lagrange.subzonal_pressure = list.get<double>("subzonal_pressure");
+  std::string const where = list.get<std::string>("cut_cell_stress");
+  deck.lagrange.cut_cell_stress = where == "cell mean"        ? CutCellStress::CellMean
+                                  : where == "filled regions" ? CutCellStress::FilledRegions
+                                                              : CutCellStress::Fluids;
+  check.require(where == "fluids" || deck.kinematics == Kinematics::Xfem, "numerics/cut_cell_stress",
+                '"' + where + "\" needs kinematics: xfem");
   bool const by_compressibility = list.get<std::string>("closure") == "compressibility";
   check.require(!by_compressibility || deck.kinematics == Kinematics::Single, "numerics/closure",
                 "\"compressibility\" closes mixed cells with one velocity; expected: kinematics single");

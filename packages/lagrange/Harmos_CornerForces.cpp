@@ -23,6 +23,7 @@ struct CornerForceFunctor
   RowPointer<double, 2> position, velocity;
   RowPointer<double, num_pair_fields> record;
   RowPointer<double, 8> corner_force;
+  detail::CutPairs cut;
 
   /// The tension that each pair bears: failed ones none, the others what they would not fail at. failPairs leaves none
   /// beyond, but the remap mixes: of vapour and condensed matter, both without pressure, the mean energy and volume may
@@ -51,9 +52,17 @@ struct CornerForceFunctor
       cell[lane] = cell_of[pair[lane]];
     detail::Corners<Pack> f = {};
     if (material.rigid_body < 0)
-      f = detail::pairForces<geometry>(
-          material, options, detail::loadPackedRecord(record, pair), detail::packedCorners(cell_node, position, cell),
-          detail::packedCorners(dof_node, velocity, pair), tensileStrength(material, pair, cell));
+    {
+      bool const any_cut = actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell);
+      auto const v = detail::packedCorners(dof_node, velocity, pair);
+      Pack const cut_trace = any_cut ? cut.velocityGradient(pair, cell, v).trace() : Pack(0.0);
+      auto const forces = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair),
+                                                       detail::packedCorners(cell_node, position, cell), v,
+                                                       tensileStrength(material, pair, cell), cut_trace);
+      f = forces.corner;
+      if (any_cut)
+        cut.addForces(pair, cell, forces.stress, forces.cell_volume, f);
+    }
     Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
     storeRows(row, lanes, [&](int lane) { return corner_force.row(pair[lane]); });
   }
@@ -72,8 +81,8 @@ void launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &s
   Kokkos::parallel_for("Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)),
                        CornerForceFunctor<geometry>{options, pairs, state, pairs.material.data(), pairs.cell.data(),
                                                     materials.data(), mesh.cell_node, pairs.dof_node,
-                                                    mesh.node_position, state.velocity, state.record,
-                                                    work.corner_force});
+                                                    mesh.node_position, state.velocity, state.record, work.corner_force,
+                                                    detail::CutPairs(work.cut, pairs)});
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_CutGradients.hpp>
 #include <Harmos_Material.hpp>
 
 namespace Harmos
@@ -16,8 +17,24 @@ enum class Closure
   Compressibility // closeMixedCells
 };
 
+/// Where the stress of a pair of a cut cell acts (kinematics `xfem`).
+enum class CutCellStress
+{
+  CellMean,     // along the mean gradients of its cell
+  Fluids,       // of materials without strength over what they fill, of the others along their cell's means
+  FilledRegions // over what each material fills
+};
+
+/// Whether a material's stress acts over what it fills.
+KOKKOS_INLINE_FUNCTION bool actsOnFilledRegion(CutCellStress where, Material const &material)
+{
+  return where == CutCellStress::FilledRegions ||
+         (where == CutCellStress::Fluids && material.strength == StrengthKind::None);
+}
+
 struct LagrangeOptions
 {
+  CutCellStress cut_cell_stress = CutCellStress::Fluids;
   Closure closure = Closure::EqualStrain;
   double linear_viscosity = 0.06;
   double quadratic_viscosity = 1.2;
@@ -38,6 +55,7 @@ struct LagrangeWork
   View<double *[2]> predicted;    // num_dof_nodes: v* = v^{n-1/2} + dt a^n, node conditions applied
   View<double *[2]> half;         // num_dof_nodes: v^{n+1/2}, after the constraints
   View<double *> node_altitude;   // num_nodes: least altitude of the cells around [length]
+  CutGradients cut;               // of this time's filled regions; empty: no cut cell is told from a pure one
   View<double *[2]> before;       // num_pairs, BeforeField: what failPairs needs of time n
 };
 

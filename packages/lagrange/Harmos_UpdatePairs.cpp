@@ -86,6 +86,7 @@ struct UpdateFunctor
   RowPointer<double, 8> corner_force;
   View<double *> dof_mass;
   bool all_owned;
+  detail::CutPairs cut;
 
   KOKKOS_INLINE_FUNCTION bool stored(unsigned lanes, int lane) const { return (lanes >> lane & 1u) != 0u; }
 
@@ -145,8 +146,10 @@ struct UpdateFunctor
       return;
     }
     Pack const power = cornerPower(corner_force, pair, detail::packedCorners(dof_node, velocity, pair), v);
-    auto const updated =
-        detail::updatePair<geometry>(material, detail::loadPackedRecord(record, pair), x, v, power, dt);
+    auto const updated = detail::updatePair<geometry>(
+        material, detail::loadPackedRecord(record, pair), x, v, power, dt,
+        actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell) ? cut.velocityGradient(pair, cell, v)
+                                                                               : detail::CutVelocityGradient<Pack>{});
     auto const &r = updated.record;
     Pack const fraction = packOf([&](int lane) { return record(pair[lane], VolumeFraction); });
     Pack const row[num_pair_fields] = {r.mass,           fraction,      r.specific_volume, r.internal_energy,
@@ -194,7 +197,8 @@ UpdateSums launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState co
                                        state.record,
                                        work.corner_force,
                                        work.dof_mass,
-                                       mesh.num_owned_cells == mesh.num_cells};
+                                       mesh.num_owned_cells == mesh.num_cells,
+                                       detail::CutPairs(work.cut, pairs)};
   UpdateSums result;
   Kokkos::parallel_reduce("Harmos::lagrange::updatePairs", RangePolicy(0, numPacks(pairs.num_pairs)), update,
                           JoinReducer<UpdateSums>(result));

@@ -122,6 +122,7 @@ TEST(Deck, Defaults_areThoseOfTheOptionStructs)
 {
   Deck const deck = example();
   EXPECT_EQ(deck.lagrange.courant, LagrangeOptions().courant);
+  EXPECT_EQ(deck.lagrange.cut_cell_stress, LagrangeOptions().cut_cell_stress);
   EXPECT_EQ(deck.lagrange.hourglass_viscosity, LagrangeOptions().hourglass_viscosity);
   EXPECT_EQ(deck.constraint.tolerance, ConstraintOptions().tolerance);
   EXPECT_EQ(deck.constraint.max_iterations, ConstraintOptions().max_iterations);

@@ -7,6 +7,7 @@
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_Strength.hpp>
 
+#include <detail/Harmos_CutPairs.hpp>
 #include <detail/Harmos_RingQuadrature.hpp>
 
 namespace Harmos
@@ -24,12 +25,21 @@ struct PairRecord
 
 constexpr double largest_energy_lag = 0.5; // of the pressure, that an expansion may take from it
 
+/// Minus the stress times the force volume, and the forces that it exerts where the cell's mean gradients act.
+template <class T>
+struct PairForces
+{
+  Corners<T> corner;
+  ScaledStress<T> stress; // times m sv / cell volume
+  T cell_volume;
+};
+
 /// Corner forces on the nodes (equations: computeCornerForces). In tension beyond `tensile_strength` the pressure is
-/// zero.
+/// zero. \param cut_trace What tr D of the filled region has beyond the cell's mean [1/s].
 template <Geometry geometry, class T>
-KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, LagrangeOptions const &options,
-                                                  PairRecord<T> const &pair, Corners<T> const &x, Corners<T> const &v,
-                                                  T const &tensile_strength)
+KOKKOS_FORCEINLINE_FUNCTION PairForces<T> pairForces(Material const &material, LagrangeOptions const &options,
+                                                     PairRecord<T> const &pair, Corners<T> const &x,
+                                                     Corners<T> const &v, T const &tensile_strength, T const &cut_trace)
 {
   auto const b = cellGradient<geometry>(x);
   MeanGradient<T> const &plane = planeOf(b);
@@ -42,7 +52,7 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, Lagr
   T const c_length = Math::sqrt(T(c2 * plane.area));
 
   // sv q = c1 c L |theta| + c2 L^2 theta^2: the force volume m sv times q needs no density
-  T const trace = rate * inverse_volume; // tr D, of the ring where axisymmetric
+  T const trace = rate * inverse_volume + cut_trace; // tr D, of the ring where axisymmetric
   T const theta = Math::max(T(-trace), T(0.0));
   T const sv_q = theta * (options.linear_viscosity * c_length + options.quadratic_viscosity * (plane.area * theta));
   T const scaled_mass = pair.mass * inverse_volume;
@@ -58,7 +68,8 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<T> pairForces(Material const &material, Lagr
 
   HourglassVector<T> const gamma = hourglassVector(plane, inverse_area, x);
   T const coefficient = (0.25 * options.hourglass_viscosity) * (pair.mass * inverse_area * c_length);
-  return stressForces(b, stress, gamma, T(coefficient * gamma.amplitude(v.x)), T(coefficient * gamma.amplitude(v.y)));
+  return {stressForces(b, stress, gamma, T(coefficient * gamma.amplitude(v.x)), T(coefficient * gamma.amplitude(v.y))),
+          stress, volumeOf(b)};
 }
 
 /// What the time step needs of a cell.
@@ -95,13 +106,34 @@ struct UpdatedPair
   T corner_area;            // leastCornerArea of the moved cell
 };
 
-/// The new record (equations: updatePairs). x at t^n, v_half; `power` = - sum f_I . v_mean_I.
+/// Volume times the gradient of a filled region.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void addCut(ScaledVelocityGradient<T> &g, T const &volume,
+                                        CutVelocityGradient<T> const &cut)
+{
+  g.xx += volume * cut.xx;
+  g.xy += volume * cut.xy;
+  g.yx += volume * cut.yx;
+  g.yy += volume * cut.yy;
+}
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void addCut(ScaledRingVelocityGradient<T> &g, T const &volume,
+                                        CutVelocityGradient<T> const &cut)
+{
+  addCut(static_cast<ScaledVelocityGradient<T> &>(g), volume, cut);
+  g.hoop += volume * cut.hoop;
+}
+
+/// The new record (equations: updatePairs). x at t^n, v_half; `power` = - sum f_I . v_mean_I. `cut`: what the velocity
+/// gradient of the filled region has beyond the cell's mean.
 template <Geometry geometry, class T>
 KOKKOS_FORCEINLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, PairRecord<T> const &pair,
-                                                      Corners<T> const &x, Corners<T> const &v, T power, double dt)
+                                                      Corners<T> const &x, Corners<T> const &v, T power, double dt,
+                                                      CutVelocityGradient<T> const &cut)
 {
   Corners<T> const x_np1 = moved(x, dt, v);
-  auto const motion = stepMotion<geometry>(x, x_np1, v);
+  auto motion = stepMotion<geometry>(x, x_np1, v);
+  addCut(motion.gradient, motion.volume_mid, cut);
   T const both = motion.volume_n * motion.volume_mid;
   T const inverse = 1.0 / (both * pair.mass); // one division for three
   T const inverse_both = inverse * pair.mass;
@@ -111,7 +143,9 @@ KOKKOS_FORCEINLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, 
   UpdatedPair<T> result;
   PairRecord<T> &updated = result.record;
   updated.mass = pair.mass;
-  updated.specific_volume = pair.specific_volume * (motion.volume_np1 * (inverse_both * motion.volume_mid));
+  T const dilatation = dt * cut.trace();
+  updated.specific_volume = pair.specific_volume * (motion.volume_np1 * (inverse_both * motion.volume_mid)) *
+                            (1.0 + dilatation * (1.0 + 0.5 * dilatation)); // exp to second order, above zero
   updated.internal_energy = pair.internal_energy + dt * power * (inverse * both);
   Deviator<T> const turned = rotate(pair.deviator, T((0.5 * step) * (motion.gradient.yx - motion.gradient.xy)));
   StrainIncrement<T> const strain = strainIncrement(motion.gradient, step);

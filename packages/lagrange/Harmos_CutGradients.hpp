@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CUT_GRADIENTS_HPP
+#define HARMOS_CUT_GRADIENTS_HPP
+
+#include <Harmos_FilledRegions.hpp>
+
+namespace Harmos
+{
+
+/// Columns of CutGradients::gradient: three a corner I.
+enum CutGradientColumn : int
+{
+  CutGradientX = 0, // d N_I / dx (axisymmetric: d N_I / dr) [1/length]
+  CutGradientY = 1, // d N_I / dy (d N_I / dz)
+  CutHoop = 2       // axisymmetric: N_I / r; planar: zero
+};
+
+/// What the means of the shape functions' gradients over a filled region have beyond those over its cell.
+struct CutGradients
+{
+  View<int *> cell_region;     // of the filled regions that this belongs to; extent 0: cells' means for all pairs
+  View<double *[12]> gradient; // by filled region, 3 I + CutGradientColumn [1/length]
+};
+
+/// Gradients of the filled regions less those of their cells.
+///
+/// A material's stress acts on its part of a cut cell alone: f_I = - sigma . integral over the filled region of
+/// grad N_I. With the cell's mean in its place a uniform pressure p would drive the nodes at an oblique interface by
+/// O(p h) against the tractions on the segments, which knows nothing of h: gases at rest would stream. The mean over
+/// the region is the gradient at its centroid (r-weighted about an axis), exactly on parallelograms; the hoop's
+/// integral of N_I over the region is exact there too. Sum over I: zero, and one over the centroid's radius.
+///
+/// \param cut Out. Regions whose area is not above 1e-13 of the cell's take the gradient at the mean of their vertices,
+///            about an axis the cell's mean.
+///
+/// Moes, Dolbow & Belytschko, Int. J. Numer. Meth. Engng 46 (1999) 131: integrals over the parts of a cut element.
+void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+                         CutGradients &cut);
+
+} // namespace Harmos
+
+#endif
