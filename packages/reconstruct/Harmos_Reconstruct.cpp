@@ -90,7 +90,12 @@ KOKKOS_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, Rec
                                            FilledRegions const &regions, int cell)
 {
   if (componentCount(field, cell) > max_components)
+  {
+    int const first = regions.cell_region(cell), count = field.pairs.offset(cell + 1) - field.pairs.offset(cell);
+    for (int k = 0; k < count; ++k)
+      regions.polygon(first + k) = Region();
     return {1.0, true, false, false, -1};
+  }
   bool const by_moments = options.method == ReconstructionMethod::MomentOfFluid;
   CellComponents const components = cellComponents(field, cell, by_moments);
   CellStatus status = writeRegions(components, removalPlan(field, components, options), regions);
@@ -134,7 +139,8 @@ FilledRegions listMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs)
         count += offset(cell + 1) - offset(cell);
       },
       num_regions);
-  regions.polygon = View<Region *>("Harmos::reconstruct::polygon", num_regions);
+  regions.polygon = View<Region *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::polygon"),
+                                   num_regions); // all are written
   return regions;
 }
 
@@ -194,7 +200,8 @@ FilledRegions reconstruct(Mesh const &mesh, CellMaterialPairs const &pairs, Pair
   ScopedRegion const region("Harmos::reconstruct");
   FilledRegions const regions = listMixedCells(mesh, pairs);
   ReconstructionField const field{mesh, pairs, state.record, state.centroid};
-  View<CellStatus *> const status("Harmos::reconstruct::status", regions.num_mixed_cells);
+  View<CellStatus *> const status(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::status"),
+                                  regions.num_mixed_cells);
   Kokkos::parallel_for(
       "Harmos::reconstruct::mixedCells", RangePolicy(0, regions.num_mixed_cells),
       KOKKOS_LAMBDA(int const i) { status(i) = reconstructCell(field, options, regions, regions.mixed_cell(i)); });
