@@ -281,7 +281,10 @@ struct PolynomialFinder
     }
   }
 
-  KOKKOS_INLINE_FUNCTION bool limitsToRange() const { return in.options.limiter == RemapLimiter::Range || in.options.limiter == RemapLimiter::RangeInside; }
+  KOKKOS_INLINE_FUNCTION bool limitsToRange() const
+  {
+    return in.options.limiter == RemapLimiter::Range || in.options.limiter == RemapLimiter::RangeInside;
+  }
 
   /// Deviations of the parts' means from the donor's.
   struct Deviations
