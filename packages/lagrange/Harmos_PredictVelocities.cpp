@@ -187,9 +187,13 @@ struct PredictFunctor
     {
       int const cell = item[i] >> 2, pair = gather.first_pair[cell];
       for (int lane = 0; lane < pack_width; ++lane)
-        differs |=
-            (gather.first_pair[cell + lane + 1] ^ (pair + lane + 1)) | (gather.material_of[pair + lane] ^ material);
+        differs |= gather.first_pair[cell + lane + 1] ^ (pair + lane + 1);
     }
+    if (differs != 0)
+      return false; // there may be no pairs to look at
+    for (int i = 0; i < 4; ++i)
+      for (int lane = 0; lane < pack_width; ++lane)
+        differs |= gather.material_of[gather.first_pair[item[i] >> 2] + lane] ^ material;
     return differs == 0;
   }
 

@@ -107,14 +107,16 @@ bool sameMaterials(View<int *> const &cells, PackedRows const &rows, CellMateria
 }
 
 /// Write records, centroids, kinds and the velocities of the corners. Pairs that share a dof node carry the same bits.
-void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMaterialPairs const &pairs,
-                    PairState const &state)
+/// The kinds come in a view of their own where some change: others go by it.
+void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMaterialPairs &pairs, PairState const &state)
 {
   CellMaterialPairs const p = pairs;
   PairState const s = state;
   PackedRows const r = rows;
-  Kokkos::parallel_for(
-      "Harmos::mesh::overwritePairs", RangePolicy(0, static_cast<int>(cells.extent(0))), KOKKOS_LAMBDA(int i) {
+  int changed = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::mesh::overwritePairs", RangePolicy(0, static_cast<int>(cells.extent(0))),
+      KOKKOS_LAMBDA(int i, int &sum) {
         int const cell = cells(i);
         for (int row = r.offset(i); row < r.offset(i + 1); ++row)
         {
@@ -129,8 +131,17 @@ void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMateri
           if (s.tracks_damage)
             s.damage(pair) = r(row, PacketDamage);
         }
-        p.cell_kind(cell) = cellKind(p, s.record, cell);
-      });
+        sum += p.cell_kind(cell) != cellKind(p, s.record, cell) ? 1 : 0;
+      },
+      changed);
+  if (changed == 0)
+    return;
+  View<int *> const kind = uninitialised<View<int *>>("Harmos::mesh::cell_kind", p.cell_kind.extent_int(0));
+  Kokkos::deep_copy(kind, p.cell_kind);
+  Kokkos::parallel_for(
+      "Harmos::mesh::receivedKinds", RangePolicy(0, static_cast<int>(cells.extent(0))),
+      KOKKOS_LAMBDA(int i) { kind(cells(i)) = cellKind(p, s.record, cells(i)); });
+  pairs.cell_kind = kind;
 }
 
 /// Rows over all local cells: owned cells keep their pairs, received ones have what came, deeper ones nothing.
