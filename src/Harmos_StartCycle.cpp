@@ -95,7 +95,7 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   {
     std::vector<int> whole;
     for (Material const &law : laws)
-      whole.push_back(law.rigid_body < 0 && actsOnFilledRegion(scene.lagrange.cut_cell_stress, law) ? 1 : 0);
+      whole.push_back(actsOnFilledRegion(scene.lagrange.cut_cell_stress, law) ? 1 : 0);
     scene.constraint.whole_segment = deviceCopy("whole_segment", whole);
   }
   if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)

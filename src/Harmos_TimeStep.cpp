@@ -137,7 +137,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     LagrangeOptions options = scene.lagrange;
     options.energy_lag = 0.5 * s.dt; // of the step that lies behind, which the one ahead stands for
     if (scene.kinematics == Kinematics::Xfem && options.cut_cell_stress != CutCellStress::CellMean)
-      computeCutGradients(mesh, s.pairs, s.regions, work.cut);
+      computeCutGradients(mesh, s.pairs, s.regions, scene.materials, options.cut_cell_stress, work.cut);
     computeCornerForces(mesh, s.pairs, s.state, scene.materials, options, work);
     if (scene.kinematics == Kinematics::Lagrangian)
       addSubzonalForces(mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,

@@ -51,6 +51,8 @@ struct CutGradientFunctor
   Mesh mesh;
   CellMaterialPairs pairs;
   FilledRegions regions;
+  View<Material *> materials;
+  CutCellStress where;
   View<double *[12]> gradient;
 
   KOKKOS_INLINE_FUNCTION void store(int row, int cell, Quadrilateral const &q) const
@@ -93,14 +95,15 @@ struct CutGradientFunctor
     Quadrilateral const q = cellQuadrilateral(mesh, cell);
     int const first = regions.cell_region(cell), count = pairs.offset(cell + 1) - pairs.offset(cell);
     for (int k = 0; k < count; ++k)
-      store(first + k, cell, q);
+      if (actsOnFilledRegion(where, materials(pairs.material(pairs.offset(cell) + k))))
+        store(first + k, cell, q);
   }
 };
 
 } // namespace
 
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                         CutGradients &cut)
+                         View<Material *> const &materials, CutCellStress where, CutGradients &cut)
 {
   cut.cell_region = regions.cell_region;
   int const count = static_cast<int>(regions.polygon.extent(0));
@@ -108,7 +111,7 @@ void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, Fille
     cut.gradient = View<double *[12]>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::cut_gradient"),
                                       count + count / 8);
   Kokkos::parallel_for("Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
-                       CutGradientFunctor{mesh, pairs, regions, cut.gradient});
+                       CutGradientFunctor{mesh, pairs, regions, materials, where, cut.gradient});
 }
 
 } // namespace Harmos

@@ -3,9 +3,25 @@
 #define HARMOS_CUT_GRADIENTS_HPP
 
 #include <Harmos_FilledRegions.hpp>
+#include <Harmos_Material.hpp>
 
 namespace Harmos
 {
+
+/// Where the stress of a pair of a cut cell acts (kinematics `xfem`).
+enum class CutCellStress
+{
+  CellMean,     // along the mean gradients of its cell
+  Fluids,       // of materials without strength over what they fill, of the others along their cell's means
+  FilledRegions // over what each material fills
+};
+
+/// Whether a material's stress acts over what it fills; rigid ones have none.
+KOKKOS_INLINE_FUNCTION bool actsOnFilledRegion(CutCellStress where, Material const &material)
+{
+  return material.rigid_body < 0 && (where == CutCellStress::FilledRegions ||
+                                     (where == CutCellStress::Fluids && material.strength == StrengthKind::None));
+}
 
 /// Columns of CutGradients::gradient: three a corner I.
 enum CutGradientColumn : int
@@ -19,10 +35,11 @@ enum CutGradientColumn : int
 struct CutGradients
 {
   View<int *> cell_region;     // of the filled regions that this belongs to; extent 0: cells' means for all pairs
-  View<double *[12]> gradient; // by filled region, 3 I + CutGradientColumn [1/length]
+  View<double *[12]> gradient; // by filled region that bears its stress, 3 I + CutGradientColumn [1/length]
 };
 
-/// Gradients of the filled regions less those of their cells.
+/// Gradients of the filled regions of materials whose stress acts over them (actsOnFilledRegion), less those of their
+/// cells; the rows of the others are not written.
 ///
 /// A material's stress acts on its part of a cut cell alone: f_I = - sigma . integral over the filled region of
 /// grad N_I. With the cell's mean in its place a uniform pressure p would drive the nodes at an oblique interface by
@@ -35,7 +52,7 @@ struct CutGradients
 ///
 /// Moes, Dolbow & Belytschko, Int. J. Numer. Meth. Engng 46 (1999) 131: integrals over the parts of a cut element.
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                         CutGradients &cut);
+                         View<Material *> const &materials, CutCellStress where, CutGradients &cut);
 
 } // namespace Harmos
 

@@ -17,21 +17,6 @@ enum class Closure
   Compressibility // closeMixedCells
 };
 
-/// Where the stress of a pair of a cut cell acts (kinematics `xfem`).
-enum class CutCellStress
-{
-  CellMean,     // along the mean gradients of its cell
-  Fluids,       // of materials without strength over what they fill, of the others along their cell's means
-  FilledRegions // over what each material fills
-};
-
-/// Whether a material's stress acts over what it fills.
-KOKKOS_INLINE_FUNCTION bool actsOnFilledRegion(CutCellStress where, Material const &material)
-{
-  return where == CutCellStress::FilledRegions ||
-         (where == CutCellStress::Fluids && material.strength == StrengthKind::None);
-}
-
 struct LagrangeOptions
 {
   CutCellStress cut_cell_stress = CutCellStress::Fluids;

@@ -28,7 +28,9 @@ struct CutCell
     regions.mixed_cell = deviceCopy("mixed_cell", std::vector<int>{0});
     regions.cell_region = deviceCopy("cell_region", std::vector<int>{0});
     regions.polygon = deviceCopy("polygon", std::vector<Region>{region});
-    computeCutGradients(mesh, pairs, regions, cut);
+    pairs.material = deviceCopy("material", std::vector<int>{0});
+    computeCutGradients(mesh, pairs, regions, deviceCopy("materials", std::vector<Material>(1)),
+                        CutCellStress::FilledRegions, cut);
   }
 
   /// Integral over the region of (r) d N_I / dx_d, with N_I added for d = 0 about an axis.
