@@ -49,6 +49,8 @@ harmos_build()
   local jobs=${HARMOS_JOBS:-$harmos_cores}
   local options=()
   command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  # Another clone of the same sources then finds its objects in the cache.
+  export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$harmos_root} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR:-1}
   [ -n "${CI:-}" ] && options+=(-DHARMOS_WARNINGS_AS_ERRORS=ON)
   (cd "$harmos_root" && cmake --preset "$preset" "${options[@]}" >"build-$preset.log" 2>&1) ||
     { cat "$harmos_root/build-$preset.log" >&2; return 1; }
