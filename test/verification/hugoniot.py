@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Laws of example/materials as numbers and words by key: pressure, temperature, states behind plane shocks."""
-from math import exp, sqrt
+"""Laws of example/materials as numbers and words by key: pressure, temperature, states behind plane shocks and on the release
+from them.
+"""
+from math import exp, log, sqrt
 
 from harness import EXAMPLE
 
@@ -23,15 +25,21 @@ def sound_speed(law):
 
 
 def pressure(law, rho, e):
-    """In compression below vaporisation; e = 0 in the reference state."""
+    """e = 0 in the reference state; Mie-Gruneisen in compression alone."""
     rho0 = law["density"]
     if law["eos"] == "mie-gruneisen":
         eta, gamma = 1.0 - rho0 / rho, law["gruneisen"]
         hugoniot = rho0 * law["sound_speed"] ** 2 * eta / (1.0 - law["slope"] * eta) ** 2
         return hugoniot * (1.0 - 0.5 * gamma * eta) + gamma * rho0 * e
     xi = rho / rho0
-    return (law["a"] + law["b"] / (1.0 + e / (law["vapour_energy"] * xi * xi))) * rho * e + \
-        law["bulk_modulus"] * (xi - 1.0) + law["quadratic_modulus"] * (xi - 1.0) ** 2
+    hot = law["b"] / (1.0 + e / (law["vapour_energy"] * xi * xi)) * rho * e
+    dense = law["a"] * rho * e + hot + law["bulk_modulus"] * (xi - 1.0) + law["quadratic_modulus"] * (xi - 1.0) ** 2
+    boils, gone = law["incipient_vaporisation"], law["complete_vaporisation"]
+    if xi >= 1.0 or e <= boils:
+        return dense
+    z = 1.0 / xi - 1.0
+    thin = law["a"] * rho * e + (hot + law["bulk_modulus"] * (xi - 1.0) * exp(-law["beta"] * z)) * exp(-law["alpha"] * z * z)
+    return dense + min((e - boils) / (gone - boils), 1.0) * (thin - dense)
 
 
 def root(f, low, high):
@@ -62,9 +70,33 @@ def shocked(law, u, strength=0.0, before=(0.0, None, 0.0, 0.0)):
         s, _ = behind(rho)
         return max(s - s0, 0.0) * (1.0 / rho0 - 1.0 / rho) - (u - u0) ** 2
 
-    rho = root(excess, rho0 * (1.0 + 1e-12), 1.6 * rho0)
+    rho = root(excess, rho0 * (1.0 + 1e-12), (1.6 if law["eos"] == "mie-gruneisen" else 4.0) * rho0)
     s, e = behind(rho)
     return (s, rho, u, e), u0 + (s - s0) / (rho0 * (u - u0))
+
+
+def release(law, rho, e, least, steps=20000):
+    """Isentrope from (rho, e) down to p = 0 or the density `least`: lists of density, energy, pressure and of the velocity that
+    a simple wave gives, u = integral sqrt(-dp dv). de = -p v d(ln v) by the classical Runge-Kutta rule.
+    """
+    def slope(log_v, e):
+        return -pressure(law, exp(-log_v), e) * exp(log_v)
+
+    states, log_v = [(rho, e, pressure(law, rho, e), 0.0)], -log(rho)
+    d = log(rho / least) / steps
+    for _ in range(steps):
+        k1 = slope(log_v, e)
+        k2 = slope(log_v + 0.5 * d, e + 0.5 * d * k1)
+        k3 = slope(log_v + 0.5 * d, e + 0.5 * d * k2)
+        k4 = slope(log_v + d, e + d * k3)
+        e += d * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+        log_v += d
+        _, _, p0, u = states[-1]
+        p = pressure(law, exp(-log_v), e)
+        if p < 0.0:
+            break
+        states.append((exp(-log_v), e, p, u + sqrt(max(p0 - p, 0.0) * (exp(log_v) - exp(log_v - d)))))
+    return list(zip(*states))
 
 
 def elastic(law, yield_stress):

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plates of every file of example/materials: shock state on the Hugoniot, elastic precursor, stress on the yield surface.
+"""Plates of every file of example/materials: shock state on the Hugoniot, elastic precursor, stress on the yield surface; of
+Tillotson's metals the release from the shocked state.
 
 Exact: jump conditions of mass, momentum and energy with the law's own pressure (strength off: one shock; perfectly plastic: an
-elastic and a plastic one), solved here. The yield stress is evaluated here too, at the state that the probe reports.
+elastic and a plastic one) and the isentrope behind a free surface, solved here. The yield stress is evaluated here too, at the
+state that the probe reports.
 """
-from math import log
+from math import log, sqrt
+
+import h5py
+import numpy
 
 from harness import EXAMPLE, ROOT, check, clean, harmos, read_columns, run
-from hugoniot import elastic, law_of, shocked, sound_speed, temperature
+from hugoniot import elastic, law_of, release, shocked, sound_speed, temperature
 
 DECK = str(ROOT / "test/verification/decks/plate.yaml")
 NEAR, FAR = 0.02, 0.04  # probes
@@ -60,6 +65,63 @@ def test_shock_states_lie_on_the_hugoniot():
         check("energy ledger", r.summary["energy_error"], 1e-10)
         assert not r.summary["warnings"], r.summary["warnings"]
         clean(r)
+
+
+def last_pairs(r):
+    """Centres of the cells, density, energy, pressure and velocity of all pairs in the last output."""
+    with h5py.File(sorted(r.directory.glob("fields_*.h5"))[-1]) as file:
+        x = file["/nodes/position"][:][file["/cells/connectivity"][:]].mean(axis=1)[:, 0]
+        return (x[file["/pairs/cell"][:].astype(int)], file["/pairs/density"][:], file["/pairs/internal_energy"][:],
+                file["/pairs/pressure"][:], file["/pairs/velocity"][:, 0])
+
+
+def released(name, u):
+    """A plate that has been shocked to u and released by its free surface, while the fan runs back through nine tenths of it:
+    errors of energy and velocity in the fan, and of velocity, density and residual energy behind it.
+    """
+    length, cells = 0.03, 240
+    law = law_of(name)
+    (stress, rho, _, e), speed = shocked(law, u)
+    densities, energies, pressures, velocities = (numpy.array(c) for c in release(law, rho, e, 0.02 * law["density"]))
+    sound = sqrt((pressures[1] - pressures[0]) / (densities[1] - densities[0]))
+    out, surface = length / speed, (speed - u) * length / speed
+    end, h = out + 0.9 * surface / sound, length / cells
+    freed = surface + velocities[-1] * (end - out)  # the free surface at the end
+    columns = int(max(length, freed) / h) + 10
+    r = harmos(DECK, {"materials/metal": f"{{from: {EXAMPLE / 'materials' / name}}}", "materials/metal/strength": "none",
+                      "bodies/plate/size": f"[{2.0 * length}, 1.0]", "bodies/plate/velocity": f"[{-u}, 0.0]",
+                      "mesh/x/cells": columns, "mesh/x/to": columns * h, "mesh/y/to": h, "run/end_time": end,
+                      "output/fields/at_end": "true", "probes/near/position": f"[{h}, {0.5 * h}]",
+                      "probes/far/position": f"[{2.0 * h}, {0.5 * h}]"})
+    x, density, energy, pressure, velocity = last_pairs(r)
+    fan = (pressure < 0.95 * stress) & (pressure > 0.05 * stress)
+    along = lambda column: numpy.interp(-density[fan], -densities, column)
+    slowest = sqrt((pressures[-2] - pressures[-1]) / (densities[-2] - densities[-1]))
+    tail = surface + (velocities[-1] - slowest) * (end - out)
+    free = (x > tail + 0.3 * (freed - tail)) & (x < freed - 0.1 * (freed - tail))
+    print(f"  {name}: {stress / 1e9:.1f} GPa, free surface {u + velocity[free].mean():.1f} m/s (exact {u + velocities[-1]:.1f}), left "
+          f"{energy[free].mean() / 1e6:.4f} MJ/kg ({energies[-1] / 1e6:.4f}), {density[free].mean():.1f} kg/m3 ({densities[-1]:.1f})")
+    assert fan.sum() > 40 and free.sum() > 25
+    check("energy in the fan, over the shock's", float(abs(energy[fan] - along(energies)).max() / e), 0.015)
+    check("velocity in the fan, over the release's", float(abs(velocity[fan] - along(velocities)).max() / velocities[-1]), 0.007)
+    check("velocity of the free surface", abs((u + velocity[free].mean()) / (u + velocities[-1]) - 1.0), 2e-3)
+    check("density after the release", abs(density[free].mean() / densities[-1] - 1.0), 5e-3)
+    check("energy left after the release, over the shock's", abs(energy[free].mean() - energies[-1]) / e, 0.01)
+    clean(r)
+    return u + velocity[free].mean()
+
+
+def test_release_of_tillotson_s_metals_follows_the_isentrope_to_the_free_surface():
+    # the last of aluminium passes into the region where solid and vapour are mixed
+    for name, speeds in (("aluminium-tillotson.yaml", (2000.0, 3350.0, 6000.0)), ("iron-tillotson.yaml", (1000.0, 3000.0))):
+        for u in speeds:
+            released(name, u)
+
+
+def test_free_surface_of_weakly_shocked_aluminium_has_twice_the_velocity_behind_the_shock():
+    # the rule of Walsh & Christian, Phys. Rev. 97 (1955) 1544, for metals shocked to some 35 GPa
+    for u in (500.0, 1000.0, 1600.0):
+        check("off two", abs(released("aluminium-tillotson.yaml", u) / (2.0 * u) - 1.0), 0.01)
 
 
 def test_perfectly_plastic_plates_send_the_elastic_precursor_ahead():
