@@ -10,8 +10,11 @@ namespace Harmos
 namespace
 {
 
-/// A bond as it travels: key of its row, point, materials.
-constexpr int bond_width = 5;
+/// A bond as it travels: length of its row (negative), key, point, materials, size of the cell.
+constexpr int bond_width = 7;
+
+/// Where cells cut off short segments the longer neighbour's bond takes them: a patch of a tenth of a cell has no mean.
+constexpr double least_spacing = 0.75; // of the cell size
 
 /// The values of all ranks one after the other, in the order of the ranks.
 std::vector<double> gather(std::vector<double> const &own, Exchange const &exchange)
@@ -31,6 +34,12 @@ std::vector<double> gather(std::vector<double> const &own, Exchange const &excha
 
 /// Largest gap at which two bodies touch. [cell sizes]
 constexpr double touching = 1e-3;
+
+bool near(Bond const &a, Bond const &b, double distance)
+{
+  Vector2 const apart = a.point - b.point;
+  return a.material_a == b.material_a && a.material_b == b.material_b && dot(apart, apart) < distance * distance;
+}
 
 /// Rows of one slave cell follow each other: the first of each pair of materials makes the bond.
 std::vector<double> ownBonds(Mesh const &mesh, ContactRows const &rows, HostView<PairInteraction **> const &law)
@@ -55,8 +64,9 @@ std::vector<double> ownBonds(Mesh const &mesh, ContactRows const &rows, HostView
     if (std::find(made.begin(), made.end(), here) != made.end())
       continue;
     made.push_back(here);
-    bonds.insert(bonds.end(), {static_cast<double>(r.key), r.point[0], r.point[1], static_cast<double>(here[1]),
-                               static_cast<double>(here[2])});
+    bonds.insert(bonds.end(),
+                 {-r.length, static_cast<double>(r.key), r.point[0], r.point[1], static_cast<double>(here[1]),
+                  static_cast<double>(here[2]), std::sqrt(cell_area(r.cell_a))});
   }
   return bonds;
 }
@@ -76,6 +86,74 @@ bool canBreak(HostView<PairInteraction **> const &law)
       if (law(i, j).kind == Interaction::Bonded && law(i, j).strength.limited())
         return true;
   return false;
+}
+
+/// The load of bonded rows as the nodes feel it. Multipliers of single rows may alternate where more rows meet than the
+/// nodes can tell apart; what they add up to at a node cannot.
+struct NodalLoad
+{
+  ContactSystem s;
+  View<ContactRow *> row;
+  View<double *[2]> impulse;
+
+  /// The tied rows at a dof node between the materials of a row: sum of N p over sum of N L. [N s/m^2]
+  KOKKOS_INLINE_FUNCTION bool meanAt(int dof, ContactRow const &of, Vector2 &mean) const
+  {
+    double length = 0.0;
+    mean = {0.0, 0.0};
+    for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
+    {
+      int const other = s.rows_of.item(e) / 8;
+      ContactRow const &r = row(other);
+      if (r.tied == 0 || Math::min(r.material_a, r.material_b) != Math::min(of.material_a, of.material_b) ||
+          Math::max(r.material_a, r.material_b) != Math::max(of.material_a, of.material_b))
+        continue;
+      double const w = Math::fabs(s.weight(other, s.rows_of.item(e) % 8));
+      double const sign = r.material_a == of.material_a ? 1.0 : -1.0;
+      mean += (sign * w) * (impulse(other, 0) * r.normal + impulse(other, 1) * perpendicular(r.normal));
+      length += w * r.length;
+    }
+    if (length > 0.0)
+      mean = (1.0 / length) * mean;
+    return length > 0.0;
+  }
+
+  /// Impulse of a tied row along n and across it: its length times the mean of its nodes' loads by its weights.
+  KOKKOS_INLINE_FUNCTION Vector2 operator()(int i) const
+  {
+    ContactRow const &r = row(i);
+    Vector2 sum{0.0, 0.0};
+    double weights = 0.0;
+    for (int k = 0; k < 8; ++k)
+    {
+      Vector2 mean;
+      if (s.dof(i, k) < 0 || !meanAt(s.dof(i, k), r, mean))
+        continue;
+      double const w = Math::fabs(s.weight(i, k));
+      sum += w * mean;
+      weights += w;
+    }
+    if (!(weights > 0.0))
+      return {impulse(i, 0), impulse(i, 1)};
+    sum = (r.length / weights) * sum;
+    return {dot(sum, r.normal), dot(sum, perpendicular(r.normal))};
+  }
+};
+
+/// Of the own rows; the others' stay zero.
+View<double *[2]> nodalImpulses(NodalLoad const &load)
+{
+  View<double *[2]> const smooth("Harmos::constrain::nodal_impulse", load.s.num_rows);
+  Kokkos::parallel_for(
+      "Harmos::constrain::nodalImpulses", RangePolicy(0, load.s.num_own), KOKKOS_LAMBDA(int i) {
+        int const own = load.s.own(i);
+        if (load.row(own).bond < 0 || load.row(own).tied == 0)
+          return;
+        Vector2 const p = load(own);
+        smooth(own, 0) = p[0];
+        smooth(own, 1) = p[1];
+      });
+  return smooth;
 }
 
 } // namespace
@@ -107,7 +185,11 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
   std::sort(found.begin(), found.end());
   std::vector<Bond> bonds;
   for (auto const &f : found)
-    bonds.push_back({{f[1], f[2]}, static_cast<int>(f[3]), static_cast<int>(f[4]), false});
+  {
+    Bond const bond{{f[2], f[3]}, static_cast<int>(f[4]), static_cast<int>(f[5]), false};
+    if (std::none_of(bonds.begin(), bonds.end(), [&](Bond const &o) { return near(o, bond, least_spacing * f[6]); }))
+      bonds.push_back(bond);
+  }
   return bonds;
 }
 
@@ -126,14 +208,15 @@ int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &optio
   return count;
 }
 
-void sumBondLoads(ContactRows const &rows, View<double *[2]> const &impulse, Exchange const &exchange,
-                  std::vector<BondLoad> &load)
+void sumBondLoads(ContactSystem const &system, ContactRows const &rows, View<double *[2]> const &impulse,
+                  Exchange const &exchange, std::vector<BondLoad> &load)
 {
   if (load.empty())
     return;
   auto const row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
   auto const own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.own);
-  auto const p = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), impulse);
+  View<double *[2]> const smooth = nodalImpulses({system, rows.row, impulse});
+  auto const p = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), smooth);
   double largest[3] = {0.0, 0.0, 0.0};
   auto const forEachTerm = [&](auto const &use)
   {

@@ -161,7 +161,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   exchangeDofVelocities(exchange, 3, pairs, half);
   sumConstraint(system, rows, solution, mesh, dof_nodes, velocity_n, half,
                 buildBodyTable(meanBodies(bodies_n, bodies), num_materials), num_materials, exchange, report);
-  sumBondLoads(rows, solution.impulse, exchange, report.bond_load);
+  sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load);
   return report;
 }
 

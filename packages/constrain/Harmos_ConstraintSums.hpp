@@ -23,9 +23,10 @@ void sumConstraint(ContactSystem const &system, ContactRows const &rows, Multipl
                    View<double *[2]> const &half, BodyTable const &mean_bodies, int num_materials,
                    Exchange const &exchange, ConstraintReport &report);
 
-/// Add up what the own rows of all ranks carry around their bonds: the same bits on any number of ranks. Collective.
-void sumBondLoads(ContactRows const &rows, View<double *[2]> const &impulse, Exchange const &exchange,
-                  std::vector<BondLoad> &load);
+/// Add up what the own rows of all ranks carry around their bonds, as their nodes feel it: the same bits on any number
+/// of ranks. Collective.
+void sumBondLoads(ContactSystem const &system, ContactRows const &rows, View<double *[2]> const &impulse,
+                  Exchange const &exchange, std::vector<BondLoad> &load);
 
 } // namespace Harmos
 

@@ -2,9 +2,9 @@
 """Friction against Coulomb's law: a block on an incline slides with g (sin a - mu cos a) or stays; a wall that rubs."""
 from math import cos, radians, sin, sqrt, tan
 
-from harness import ROOT, check, clean, harmos, run
+from harness import ROOT, check, clean, harmos, read_columns, run
 
-DECK = "incline/deck.yaml"
+DECK, DECKS = "incline/deck.yaml", ROOT / "test/verification/decks"
 G, QUIET = 10.0, {"output/fields/every_time": 0.0, "output/fields/at_end": False}
 
 
@@ -85,6 +85,48 @@ def test_a_bond_of_two_bars_holds_below_its_strength_and_breaks_above():
         print(f"  strength {strength / tension:.1f} of the tension: momentum of a bar changes by {change:.2e} in the second half")
         assert change > 0.2 if broken == 0 else change < 1e-12
         clean(r)
+
+
+def pulled(angle, shear):
+    """Traction over strength where a joint breaks whose load grows slowly; exact is one. Waves of both grips make steps of 0.04.
+
+    The load is what the displacement of the grips gives without waves: (2 G d / length) of a bar without lateral strain, G d / height
+    of a sheared layer (which is without load at its ends, over about its height).
+    """
+    rho, g, strength, step = 1000.0, 1.5e9, 3.0e6, 0.02
+    half, width = (4.0, 20.0) if shear else (12.0, 8.0)
+    stiffness, wave = (g, sqrt(g / rho)) if shear else (2.0 * g, sqrt(2.0 * g / rho))
+    speed = step * strength / (rho * wave)
+    c, s = cos(radians(angle)), sin(radians(angle))
+
+    def at(x, y):
+        return f"[{0.31 + x * c - y * s}, {0.17 + x * s + y * c}]"
+
+    ahead = (-s, c) if shear else (c, s)
+    settings = {"run/end_time": 1.2 * strength * half / (stiffness * speed)}
+    settings[f"interactions/glue/{'shear' if shear else 'tensile'}_strength"] = strength
+    for name, side in ("a", -1.0), ("b", 1.0):
+        settings |= {f"bodies/{name}/center": at(side * half / 2.0, 0.0), f"bodies/{name}/size": f"[{half}, {width}]", f"bodies/{name}/angle": angle}
+    for name, side in ("left", -1.0), ("right", 1.0):
+        settings |= {f"bodies/{name}/center": at(side * (half + 1.5), 0.0), f"bodies/{name}/size": f"[3.0, {width + 3.0}]",
+                     f"bodies/{name}/angle": angle, f"bodies/{name}/velocity": f"[{side * speed * ahead[0]}, {side * speed * ahead[1]}]"}
+    r = harmos(DECKS / "pulled_bar.yaml", settings)
+    rows = read_columns(r.directory / "contact.csv")
+    joint = [(abs(fx * ahead[0] + fy * ahead[1]), t) for a, b, fx, fy, t in zip(
+        rows["a"], rows["b"], rows["force_x"], rows["force_y"], rows["time"]) if (a, b) == ("a", "b")]
+    assert r.summary["broken_bonds"] > 0.5 * width
+    found = stiffness * speed * max(joint)[1] / half / strength
+    print(f"  {angle} degrees, {'shear' if shear else 'tension'}: breaks at {found:.3f} of the strength, "
+          f"{r.summary['broken_bonds']} bonds")
+    clean(r)
+    return found
+
+
+def test_a_joint_breaks_at_its_strength_whatever_its_angle_to_the_mesh():
+    for angle in (0.0, 20.0, 45.0):
+        check("traction over tensile strength, from one", abs(pulled(angle, False) - 1.0), 0.07)
+    for angle in (0.0, 30.0):
+        check("traction over shear strength, from one", abs(pulled(angle, True) - 1.0), 0.07)
 
 
 def test_a_block_below_the_friction_angle_stays():

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TinyScene.hpp"
 
+#include <Harmos_ConstraintSums.hpp>
+
 #include <gtest/gtest.h>
 
 using namespace HarmosTest;
@@ -152,6 +154,60 @@ TEST(Bonds, theNearestBond_decides)
       EXPECT_LT(report.bond_load[i].normal, 0.0); // tension
   }
   EXPECT_EQ(breakBonds(report.bond_load, scene.options, scene.dt, scene.bonds), 4);
+}
+
+// On a grid line alternating multipliers move no inner node: the bonds carry the mean, and their sum is all there is.
+TEST(Bonds, multipliersThatAlternate_loadThemAlike)
+{
+  TinyScene scene(rectilinearMesh(uniform(2, 2), uniform(8, 8)), {boxBody(0, 0, 0, 1, 8), boxBody(1, 1, 0, 2, 8)}, 2,
+                  open_box);
+  scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, 0.0, {1.0, 1.0}});
+  scene.bonds = findBonds(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions, {}, scene.options,
+                          *scene.exchange);
+  BodyTable const none = buildBodyTable({}, 2);
+  ContactRows const rows = findContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions,
+                                           none, scene.bonds, scene.options, *scene.exchange);
+  ContactSystem const system = buildContactSystem(rows, scene.dof_nodes, scene.conditions, scene.dof_mass,
+                                                  {scene.velocity_n, none}, {scene.predicted, none}, {}, scene.dt);
+  View<double *[2]> const impulse("impulse", rows.count);
+  auto const p = Kokkos::create_mirror_view(impulse);
+  for (int i = 0; i < rows.count; ++i)
+  {
+    p(i, 0) = i % 2 == 0 ? -9.0 : 7.0; // of rows of length one: -1 in the mean
+    p(i, 1) = i % 2 == 0 ? -3.0 : 7.0; // 2 in the mean
+  }
+  Kokkos::deep_copy(impulse, p);
+  std::vector<BondLoad> load(scene.bonds.size());
+  sumBondLoads(system, rows, impulse, *scene.exchange, load);
+  ASSERT_EQ(load.size(), 8u);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < load.size(); ++i)
+  {
+    sum += load[i].normal;
+    if (scene.bonds[i].point[1] > 1.0 && scene.bonds[i].point[1] < 7.0)
+    {
+      EXPECT_NEAR(load[i].normal, -1.0, 1e-12);
+      EXPECT_NEAR(load[i].tangential, 2.0, 1e-12);
+    }
+  }
+  EXPECT_NEAR(sum, 4.0 * (7.0 - 9.0), 1e-12);
+}
+
+// A corner cell with a fifth of the interface has no patch of its own.
+TEST(Bonds, ofCutOffSegments_areThoseOfTheirNeighbours)
+{
+  TinyScene scene(rectilinearMesh(uniform(2, 2), uniform(8, 8)),
+                  {boxBody(0, 0, 0, 0.7, 5.2), boxBody(1, 0.7, 0, 2, 5.2)}, 2, open_box);
+  scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, 0.0, {1.0, 0.0}});
+  scene.bonds = findBonds(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions, {}, scene.options,
+                          *scene.exchange);
+  EXPECT_EQ(scene.bonds.size(), 5u);
+  scene.setVelocity([](int material, Vector2 const &) { return Vector2{material == 0 ? -V : V, 0.0}; });
+  ConstraintReport const report = scene.constrain();
+  double length = 0.0;
+  for (BondLoad const &load : report.bond_load)
+    length += load.length;
+  EXPECT_NEAR(length, 5.2, 1e-12);
 }
 
 // What is bonded holds across the round-off of a remap, not across void.
