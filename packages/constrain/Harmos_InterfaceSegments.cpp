@@ -190,7 +190,6 @@ struct SegmentFinder
   CellMaterialPairs pairs;
   FilledRegions regions;
   View<Boundary *> boundary;
-  View<int *> filling;
   View<InterfaceSegment *> segment;
   Placement placement;
 
@@ -200,7 +199,12 @@ struct SegmentFinder
     return b >= 0 && boundary(b).kind == BoundaryKind::ContactWall;
   }
 
-  KOKKOS_INLINE_FUNCTION int fillingOf(int cell) const
+  KOKKOS_INLINE_FUNCTION bool freeFace(int cell, int face) const
+  {
+    return mesh.face_neighbour(cell, face) < 0 && mesh.face_boundary(cell, face) < 0;
+  }
+
+  KOKKOS_INLINE_FUNCTION int filling(int cell) const
   {
     int const kind = pairs.cell_kind(cell);
     return kind == PureCell ? pairs.material(pairs.offset(cell)) : kind == VoidCell ? void_filling : mixed_filling;
@@ -209,8 +213,6 @@ struct SegmentFinder
   /// False where no segment can lie: a pure cell among its like, void away from contact walls.
   KOKKOS_INLINE_FUNCTION bool visits(int cell) const
   {
-    if (mesh.halo > 0 && mesh.cell_depth(cell) >= mesh.halo)
-      return false;
     int const own = filling(cell);
     if (own == mixed_filling)
       return true;
@@ -218,7 +220,7 @@ struct SegmentFinder
     {
       int const across = mesh.face_neighbour(cell, k);
       if (across >= 0 ? own >= 0 && filling(across / 4) != own
-                      : contactWall(cell, k) || (own >= 0 && mesh.face_boundary(cell, k) < 0))
+                      : contactWall(cell, k) || (own >= 0 && freeFace(cell, k)))
         return true;
     }
     return false;
@@ -371,18 +373,60 @@ View<T *> unset(char const *label, int size)
   return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
 }
 
-/// The cells that may carry segments, ascending.
-View<int *> interfaceCells(Mesh const &mesh, SegmentFinder const &finder, int &count)
+/// Marks a cell and its vertex neighbours.
+KOKKOS_INLINE_FUNCTION void markAround(Mesh const &mesh, int cell, View<int *> const &marked)
 {
-  View<int *> const filling = finder.filling;
+  marked(cell) = 1; // whoever writes writes one
+  for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
+    marked(mesh.cell_neighbour.item(e)) = 1;
+}
+
+bool hasContactWall(View<Boundary *> const &boundary)
+{
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), boundary);
+  for (std::size_t b = 0; b < host.extent(0); ++b)
+    if (host(b).kind == BoundaryKind::ContactWall)
+      return true;
+  return false;
+}
+
+/// 1 for the cells that have two materials, or a contact wall, in their vertex neighbours or the next ones: two
+/// materials at a node of a neighbour. Nothing else can meet another body.
+View<int *> cellsNearOthers(SegmentFinder const &finder, NodeMaterialPairs const &dof_nodes)
+{
+  Mesh const mesh = finder.mesh;
+  View<int *> const near("Harmos::constrain::near_others", mesh.num_cells), offset = dof_nodes.offset;
   Kokkos::parallel_for(
-      "Harmos::constrain::fillings", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell) { filling(cell) = finder.fillingOf(cell); });
+      "Harmos::constrain::nearOthers", RangePolicy(0, mesh.num_nodes), KOKKOS_LAMBDA(int node) {
+        if (offset(node + 1) - offset(node) < 2)
+          return;
+        for (int e = mesh.node_cell.offset(node); e < mesh.node_cell.offset(node + 1); ++e)
+          markAround(mesh, mesh.node_cell.item(e) / 4, near);
+      });
+  if (hasContactWall(finder.boundary))
+    Kokkos::parallel_for(
+        "Harmos::constrain::nearWalls", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
+          for (int k = 0; k < 4; ++k)
+            if (finder.contactWall(cell, k))
+              markAround(mesh, cell, near);
+        });
+  return near;
+}
+
+/// The cells whose segments can meet another body, ascending: interface cells near others, and free surfaces of blocks,
+/// which share no node with what they meet.
+View<int *> interfaceCells(SegmentFinder const &finder, NodeMaterialPairs const &dof_nodes, int &count)
+{
+  Mesh const mesh = finder.mesh;
+  View<int *> const near = cellsNearOthers(finder, dof_nodes);
   View<int *> const visited = unset<int>("Harmos::constrain::interface_cell", mesh.num_cells);
   Kokkos::parallel_scan(
       "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells),
       KOKKOS_LAMBDA(int cell, int &sum, bool final) {
-        if (!finder.visits(cell))
+        bool candidate = near(cell) == 1;
+        for (int k = 0; k < 4; ++k)
+          candidate = candidate || finder.freeFace(cell, k);
+        if (!candidate || (mesh.halo > 0 && mesh.cell_depth(cell) >= mesh.halo) || !finder.visits(cell))
           return;
         if (final)
           visited(sum) = cell;
@@ -409,14 +453,14 @@ int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int n
 
 } // namespace
 
-InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                        NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                         BoundaryConditions const &conditions, Placement placement)
 {
   constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
-  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, {}, placement};
-  finder.filling = unset<int>("Harmos::constrain::filling", mesh.num_cells);
+  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, placement};
   int num_visited = 0;
-  View<int *> const visited = interfaceCells(mesh, finder, num_visited);
+  View<int *> const visited = interfaceCells(finder, dof_nodes, num_visited);
   View<int *> const first = unset<int>("Harmos::constrain::first_segment", num_visited);
   InterfaceSegments result;
   finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", usual_segments * num_visited);

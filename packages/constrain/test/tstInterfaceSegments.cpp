@@ -13,16 +13,16 @@ namespace
 
 std::vector<InterfaceSegment> segmentsOf(TinyScene const &scene)
 {
-  InterfaceSegments const s =
-      findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
+                                                    scene.conditions, Placement::Midpoint);
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.segment);
   return std::vector<InterfaceSegment>(host.data(), host.data() + s.count);
 }
 
 std::vector<RayHit> hitsOf(TinyScene const &scene)
 {
-  InterfaceSegments const s =
-      findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
+                                                    scene.conditions, Placement::Midpoint);
   auto const hit = castRays(scene.mesh, s, binSegments(s, largestSegment(scene.mesh, s)));
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hit);
   return std::vector<RayHit>(host.data(), host.data() + s.count);
