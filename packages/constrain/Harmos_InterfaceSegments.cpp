@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_InterfaceCells.hpp>
 #include <Harmos_InterfaceSegments.hpp>
 
 #include <stdexcept>
@@ -179,52 +180,15 @@ KOKKOS_INLINE_FUNCTION PiecePoints piecePoints(Placement placement, bool free)
   return {two ? 2 : 1, gauss_point};
 }
 
-// What fills a cell: the material of a pure one, else one of these.
-constexpr int void_filling = -1;
-constexpr int mixed_filling = -2;
-
 /// Writes the segments of single cells.
 struct SegmentFinder
 {
   Mesh mesh;
   CellMaterialPairs pairs;
   FilledRegions regions;
-  View<Boundary *> boundary;
+  CellSurface surface;
   View<InterfaceSegment *> segment;
   Placement placement;
-
-  KOKKOS_INLINE_FUNCTION bool contactWall(int cell, int face) const
-  {
-    int const b = mesh.face_boundary(cell, face);
-    return b >= 0 && boundary(b).kind == BoundaryKind::ContactWall;
-  }
-
-  KOKKOS_INLINE_FUNCTION bool freeFace(int cell, int face) const
-  {
-    return mesh.face_neighbour(cell, face) < 0 && mesh.face_boundary(cell, face) < 0;
-  }
-
-  KOKKOS_INLINE_FUNCTION int filling(int cell) const
-  {
-    int const kind = pairs.cell_kind(cell);
-    return kind == PureCell ? pairs.material(pairs.offset(cell)) : kind == VoidCell ? void_filling : mixed_filling;
-  }
-
-  /// False where no segment can lie: a pure cell among its like, void away from contact walls.
-  KOKKOS_INLINE_FUNCTION bool visits(int cell) const
-  {
-    int const own = filling(cell);
-    if (own == mixed_filling)
-      return true;
-    for (int k = 0; k < 4; ++k)
-    {
-      int const across = mesh.face_neighbour(cell, k);
-      if (across >= 0 ? own >= 0 && filling(across / 4) != own
-                      : contactWall(cell, k) || (own >= 0 && freeFace(cell, k)))
-        return true;
-    }
-    return false;
-  }
 
   KOKKOS_INLINE_FUNCTION void coverBy(int cell, int except, Edge const &edge, double tolerance,
                                       EdgeCovers &covers) const
@@ -250,10 +214,10 @@ struct SegmentFinder
     int const across = face < 0 ? -1 : mesh.face_neighbour(cell, face);
     bool const outer = face >= 0 && across < 0;
     bool const free = outer && mesh.face_boundary(cell, face) < 0;
-    if (outer ? !free && !contactWall(cell, face) : across >= 0 && filling(across / 4) == material)
+    if (outer ? !free && !surface.contactWall(cell, face) : across >= 0 && surface.filling(across / 4) == material)
       return 0;
     EdgePieces pieces;
-    if (outer || (across >= 0 && filling(across / 4) != mixed_filling))
+    if (outer || (across >= 0 && surface.filling(across / 4) != mixed_filling))
       wholeEdge(edge.length, pieces);
     else
     {
@@ -315,7 +279,7 @@ struct SegmentFinder
   {
     int const cell = blank.cell, begin = pairs.offset(cell);
     int count = 0;
-    if (filling(cell) >= 0)
+    if (surface.filling(cell) >= 0)
     {
       for (int k = 0; k < 4; ++k)
         if (frame.face[k].length > frame.tolerance)
@@ -344,7 +308,7 @@ struct SegmentFinder
     int count = regionSegments(frame, blank, first);
     for (int k = 0; k < 4; ++k)
     {
-      if (!contactWall(cell, k))
+      if (!surface.contactWall(cell, k))
         continue;
       if (first + count < static_cast<int>(segment.extent(0)))
       {
@@ -373,69 +337,6 @@ View<T *> unset(char const *label, int size)
   return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
 }
 
-/// Marks a cell and its vertex neighbours.
-KOKKOS_INLINE_FUNCTION void markAround(Mesh const &mesh, int cell, View<int *> const &marked)
-{
-  marked(cell) = 1; // whoever writes writes one
-  for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
-    marked(mesh.cell_neighbour.item(e)) = 1;
-}
-
-bool hasContactWall(View<Boundary *> const &boundary)
-{
-  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), boundary);
-  for (std::size_t b = 0; b < host.extent(0); ++b)
-    if (host(b).kind == BoundaryKind::ContactWall)
-      return true;
-  return false;
-}
-
-/// 1 for the cells that have two materials, or a contact wall, in their vertex neighbours or the next ones: two
-/// materials at a node of a neighbour. Nothing else can meet another body.
-View<int *> cellsNearOthers(SegmentFinder const &finder, NodeMaterialPairs const &dof_nodes)
-{
-  Mesh const mesh = finder.mesh;
-  View<int *> const near("Harmos::constrain::near_others", mesh.num_cells), offset = dof_nodes.offset;
-  Kokkos::parallel_for(
-      "Harmos::constrain::nearOthers", RangePolicy(0, mesh.num_nodes), KOKKOS_LAMBDA(int node) {
-        if (offset(node + 1) - offset(node) < 2)
-          return;
-        for (int e = mesh.node_cell.offset(node); e < mesh.node_cell.offset(node + 1); ++e)
-          markAround(mesh, mesh.node_cell.item(e) / 4, near);
-      });
-  if (hasContactWall(finder.boundary))
-    Kokkos::parallel_for(
-        "Harmos::constrain::nearWalls", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-          for (int k = 0; k < 4; ++k)
-            if (finder.contactWall(cell, k))
-              markAround(mesh, cell, near);
-        });
-  return near;
-}
-
-/// The cells whose segments can meet another body, ascending: interface cells near others, and free surfaces of blocks,
-/// which share no node with what they meet.
-View<int *> interfaceCells(SegmentFinder const &finder, NodeMaterialPairs const &dof_nodes, int &count)
-{
-  Mesh const mesh = finder.mesh;
-  View<int *> const near = cellsNearOthers(finder, dof_nodes);
-  View<int *> const visited = unset<int>("Harmos::constrain::interface_cell", mesh.num_cells);
-  Kokkos::parallel_scan(
-      "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell, int &sum, bool final) {
-        bool candidate = near(cell) == 1;
-        for (int k = 0; k < 4; ++k)
-          candidate = candidate || finder.freeFace(cell, k);
-        if (!candidate || (mesh.halo > 0 && mesh.cell_depth(cell) >= mesh.halo) || !finder.visits(cell))
-          return;
-        if (final)
-          visited(sum) = cell;
-        ++sum;
-      },
-      count);
-  return visited;
-}
-
 /// Write the segments of the listed cells one after the other as far as there is room; returns their number.
 int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int num_visited, View<int *> const &first)
 {
@@ -458,9 +359,9 @@ InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs cons
                                         BoundaryConditions const &conditions, Placement placement)
 {
   constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
-  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, placement};
+  SegmentFinder finder{mesh, pairs, regions, {mesh, pairs, conditions.boundary}, {}, placement};
   int num_visited = 0;
-  View<int *> const visited = interfaceCells(finder, dof_nodes, num_visited);
+  View<int *> const visited = interfaceCells(finder.surface, dof_nodes, num_visited);
   View<int *> const first = unset<int>("Harmos::constrain::first_segment", num_visited);
   InterfaceSegments result;
   finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", usual_segments * num_visited);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_INTERFACE_CELLS_HPP
+#define HARMOS_INTERFACE_CELLS_HPP
+
+#include <Harmos_BoundaryConditions.hpp>
+#include <Harmos_CellMaterialPairs.hpp>
+
+namespace Harmos
+{
+
+// What fills a cell: the material of a pure one, else one of these.
+constexpr int void_filling = -1;
+constexpr int mixed_filling = -2;
+
+/// What lies at the faces of cells.
+struct CellSurface
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  View<Boundary *> boundary;
+
+  KOKKOS_INLINE_FUNCTION bool contactWall(int cell, int face) const
+  {
+    int const b = mesh.face_boundary(cell, face);
+    return b >= 0 && boundary(b).kind == BoundaryKind::ContactWall;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool freeFace(int cell, int face) const
+  {
+    return mesh.face_neighbour(cell, face) < 0 && mesh.face_boundary(cell, face) < 0;
+  }
+
+  KOKKOS_INLINE_FUNCTION int filling(int cell) const
+  {
+    int const kind = pairs.cell_kind(cell);
+    return kind == PureCell ? pairs.material(pairs.offset(cell)) : kind == VoidCell ? void_filling : mixed_filling;
+  }
+};
+
+/// The cells whose segments can meet another body, ascending, in the first `count` places: cells that hold a piece of
+/// interface and have two materials, or a contact wall, within two cells around them; and free surfaces of body-fitted
+/// blocks, which share no node with what they meet. Cells of depth mesh.halo (halo > 0) are left out.
+View<int *> interfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, int &count);
+
+} // namespace Harmos
+
+#endif
