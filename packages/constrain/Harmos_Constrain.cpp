@@ -136,7 +136,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   report.bond_load.assign(bonds.size(), BondLoad());
 
   BodyTable const table = buildBodyTable(bodies, num_materials);
-  BodyTable const table_n = buildBodyTable(bodies_n, num_materials);
+  BodyTable const table_n = withBodies(table, bodies_n);
   ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
                                            {velocity_n, table_n}, dt);
   report.rows = rows.num_multipliers;
@@ -156,11 +156,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   report.converged = solution.converged;
   report.force = solution.force;
   moveFreeBodies(system, solution.body_change, bodies);
-  writeHalf(mesh, dof_nodes, predicted, buildBodyTable(bodies, num_materials), half);
+  writeHalf(mesh, dof_nodes, predicted, system.num_free > 0 ? withBodies(table, bodies) : table, half);
   addChange(system, solution.change, half);
   exchangeDofVelocities(exchange, 3, pairs, half);
   sumConstraint(system, rows, solution, mesh, dof_nodes, velocity_n, half,
-                buildBodyTable(meanBodies(bodies_n, bodies), num_materials), num_materials, exchange, report);
+                withBodies(table, meanBodies(bodies_n, bodies)), num_materials, exchange, report);
   sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load);
   return report;
 }

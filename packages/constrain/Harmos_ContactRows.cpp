@@ -28,6 +28,11 @@ BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials
   return table;
 }
 
+BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies)
+{
+  return {table.of_material, deviceCopy("Harmos::constrain::body", bodies)};
+}
+
 namespace
 {
 

@@ -57,12 +57,15 @@ PackedRows packedRows(View<int *> const &offset, int total, int width);
 
 BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials);
 
+/// The table of the same bodies at another time.
+BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies);
+
 /// One row for every owned slave segment that carries one, or two: a facet that comes up tilted is through with one end
 /// while its middle is still apart, and leaves an overlap of length^2 tan(tilt) / 8. So where an end comes by more than
 /// 0.02 cells in the step, at v^{n-1/2}, and is or gets 1e-3 cells ahead of the middle, two rows stand at the Gauss
 /// points in the place of the one in the middle (Placement::Midpoint, no bond, both halves face the same material).
-/// What comes slower keeps one, which is best conditioned: with two before any void the loaded length of Hertz's contact
-/// was off by half.
+/// What comes slower keeps one, which is best conditioned: with two before any void the loaded length of Hertz's
+/// contact was off by half.
 ///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
 /// on segments shorter than shortest_segment, on cell faces exposed by less than exposed_face, between driven bodies,

@@ -13,6 +13,8 @@ KOKKOS_INLINE_FUNCTION bool carriesSegments(CellSurface const &surface, int cell
   int const own = surface.filling(cell);
   if (own == mixed_filling)
     return true;
+  if (own == void_filling && !surface.walls)
+    return false;
   for (int k = 0; k < 4; ++k)
   {
     int const across = surface.mesh.face_neighbour(cell, k);
@@ -21,14 +23,6 @@ KOKKOS_INLINE_FUNCTION bool carriesSegments(CellSurface const &surface, int cell
       return true;
   }
   return false;
-}
-
-/// Marks a cell and its vertex neighbours.
-KOKKOS_INLINE_FUNCTION void markAround(Mesh const &mesh, int cell, View<int *> const &marked)
-{
-  marked(cell) = 1; // whoever writes writes one
-  for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
-    marked(mesh.cell_neighbour.item(e)) = 1;
 }
 
 bool hasContactWall(View<Boundary *> const &boundary)
@@ -40,64 +34,75 @@ bool hasContactWall(View<Boundary *> const &boundary)
   return false;
 }
 
-/// Whether the nodes of a cell carry different materials.
-KOKKOS_INLINE_FUNCTION bool nodesDiffer(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, int cell)
+// What a node carries: its only material, else one of these.
+constexpr int no_material = -1;
+constexpr int several_materials = 1 << 30;
+
+View<int *> nodeMaterials(Mesh const &mesh, NodeMaterialPairs const &dof_nodes)
 {
-  int known = void_filling;
-  for (int k = 0; k < 4; ++k)
-  {
-    int const node = mesh.cell_node(cell, k);
-    for (int dof = dof_nodes.offset(node); dof < dof_nodes.offset(node + 1); ++dof)
-    {
-      if (known != void_filling && dof_nodes.material(dof) != known)
-        return true;
-      known = dof_nodes.material(dof);
-    }
-  }
-  return false;
+  View<int *> const carried(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::node_material"),
+                            mesh.num_nodes);
+  View<int *> const offset = dof_nodes.offset, material = dof_nodes.material;
+  Kokkos::parallel_for(
+      "Harmos::constrain::nodeMaterials", RangePolicy(0, mesh.num_nodes), KOKKOS_LAMBDA(int node) {
+        int const first = offset(node), count = offset(node + 1) - first;
+        carried(node) = count == 1 ? material(first) : count == 0 ? no_material : several_materials;
+      });
+  return carried;
 }
 
-/// 1 for the cells that have two materials, or a contact wall, within two cells around them: those are in the vertex
-/// neighbours of some cell that is, or touches, this one. All materials there are at that cell's nodes.
+/// 1 for the cells that have two materials, or a contact wall, within two cells around them. Those are then at the
+/// nodes of one cell, which is this one or one of its vertex neighbours.
 View<int *> cellsNearOthers(CellSurface const &surface, NodeMaterialPairs const &dof_nodes)
 {
-  Mesh const mesh = surface.mesh;
-  View<int *> const kind = surface.pairs.cell_kind, offset = dof_nodes.offset;
-  View<int *> const several("Harmos::constrain::several_materials", mesh.num_cells);
-  View<int *> const near("Harmos::constrain::near_others", mesh.num_cells);
-  bool const walls = hasContactWall(surface.boundary);
+  View<int *[4]> const cell_node = surface.mesh.cell_node;
+  Rows const neighbour = surface.mesh.cell_neighbour;
+  bool const walls = surface.walls;
+  View<int *> const carried = nodeMaterials(surface.mesh, dof_nodes);
+  View<int *> const near("Harmos::constrain::near_others", surface.mesh.num_cells);
   Kokkos::parallel_for(
-      "Harmos::constrain::severalMaterials", RangePolicy(0, mesh.num_nodes), KOKKOS_LAMBDA(int node) {
-        if (offset(node + 1) - offset(node) > 1)
-          for (int e = mesh.node_cell.offset(node); e < mesh.node_cell.offset(node + 1); ++e)
-            several(mesh.node_cell.item(e) / 4) = 1;
-      });
-  Kokkos::parallel_for(
-      "Harmos::constrain::nearOthers", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        bool meets = several(cell) == 1 || (kind(cell) == VoidCell && nodesDiffer(mesh, dof_nodes, cell));
+      "Harmos::constrain::nearOthers", RangePolicy(0, surface.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
+        int most = no_material;
+        unsigned least = static_cast<unsigned>(no_material); // the largest of all
+        for (int k = 0; k < 4; ++k)
+        {
+          int const m = carried(cell_node(cell, k));
+          most = Math::max(most, m);
+          least = Math::min(least, static_cast<unsigned>(m));
+        }
+        bool meets = most == several_materials || static_cast<unsigned>(most) != least;
         for (int k = 0; walls && k < 4; ++k)
           meets = meets || surface.contactWall(cell, k);
-        if (meets)
-          markAround(mesh, cell, near);
+        if (!meets)
+          return;
+        near(cell) = 1; // whoever writes writes one
+        for (int e = neighbour.offset(cell); e < neighbour.offset(cell + 1); ++e)
+          near(neighbour.item(e)) = 1;
       });
   return near;
 }
 
 } // namespace
 
+CellSurface cellSurface(Mesh const &mesh, CellMaterialPairs const &pairs, BoundaryConditions const &conditions)
+{
+  return {mesh, pairs, conditions.boundary, hasContactWall(conditions.boundary)};
+}
+
 View<int *> interfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, int &count)
 {
-  Mesh const mesh = surface.mesh;
   View<int *> const near = cellsNearOthers(surface, dof_nodes);
+  int const num_cells = surface.mesh.num_cells, halo = surface.mesh.halo;
+  View<int *> const depth = surface.mesh.cell_depth;
   View<int *> const visited(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::interface_cell"),
-                            mesh.num_cells);
+                            num_cells);
   Kokkos::parallel_scan(
-      "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells),
+      "Harmos::constrain::listInterfaceCells", RangePolicy(0, num_cells),
       KOKKOS_LAMBDA(int cell, int &sum, bool final) {
         bool candidate = near(cell) == 1;
         for (int k = 0; k < 4; ++k)
           candidate = candidate || surface.freeFace(cell, k);
-        if (!candidate || (mesh.halo > 0 && mesh.cell_depth(cell) >= mesh.halo) || !carriesSegments(surface, cell))
+        if (!candidate || (halo > 0 && depth(cell) >= halo) || !carriesSegments(surface, cell))
           return;
         if (final)
           visited(sum) = cell;

@@ -18,6 +18,7 @@ struct CellSurface
   Mesh mesh;
   CellMaterialPairs pairs;
   View<Boundary *> boundary;
+  bool walls; // some boundary is a contact wall
 
   KOKKOS_INLINE_FUNCTION bool contactWall(int cell, int face) const
   {
@@ -36,6 +37,8 @@ struct CellSurface
     return kind == PureCell ? pairs.material(pairs.offset(cell)) : kind == VoidCell ? void_filling : mixed_filling;
   }
 };
+
+CellSurface cellSurface(Mesh const &mesh, CellMaterialPairs const &pairs, BoundaryConditions const &conditions);
 
 /// The cells whose segments can meet another body, ascending, in the first `count` places: cells that hold a piece of
 /// interface and have two materials, or a contact wall, within two cells around them; and free surfaces of body-fitted

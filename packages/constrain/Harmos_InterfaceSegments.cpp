@@ -204,6 +204,14 @@ struct SegmentFinder
       }
   }
 
+  /// Whether one region of the same material lies beyond the whole edge.
+  static KOKKOS_INLINE_FUNCTION bool coveredByLike(EdgeCovers const &covers, int material, double length,
+                                                   double tolerance)
+  {
+    return covers.count == 1 && covers.material[0] == material && covers.begin[0] <= tolerance &&
+           covers.end[0] >= length - tolerance;
+  }
+
   /// Write the segments of one edge of a pair's region, on a face of its cell or (face = -1) inside, from `first` on,
   /// as far as there is room; returns their number. `blank` holds what the cell's segments share.
   KOKKOS_INLINE_FUNCTION int edgeSegments(int pair, Edge const &edge, int face, CellFrame const &frame,
@@ -223,6 +231,8 @@ struct SegmentFinder
     {
       EdgeCovers covers;
       coverBy(face < 0 ? cell : across / 4, face < 0 ? pair : -1, edge, frame.tolerance, covers);
+      if (coveredByLike(covers, material, edge.length, frame.tolerance))
+        return 0;
       exposedPieces(edge.length, covers, material, frame.tolerance, pieces);
     }
     PiecePoints const points = piecePoints(placement, free);
@@ -359,7 +369,7 @@ InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs cons
                                         BoundaryConditions const &conditions, Placement placement)
 {
   constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
-  SegmentFinder finder{mesh, pairs, regions, {mesh, pairs, conditions.boundary}, {}, placement};
+  SegmentFinder finder{mesh, pairs, regions, cellSurface(mesh, pairs, conditions), {}, placement};
   int num_visited = 0;
   View<int *> const visited = interfaceCells(finder.surface, dof_nodes, num_visited);
   View<int *> const first = unset<int>("Harmos::constrain::first_segment", num_visited);

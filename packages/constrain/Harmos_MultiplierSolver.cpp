@@ -249,7 +249,7 @@ public:
   void byConjugateGradients()
   {
     constexpr double part = 0.1; // of the residual that one pass with held bounds has to leave
-    if (residualFits())
+    if (nothingFits())
       return;
     c_.fixed_step /= operatorNorm(s_, c_, exchange_);
     descend(c_.two_sided ? Math::max(bound_, part * violation_) : bound_);
@@ -268,7 +268,7 @@ public:
   void byProjectedNewton(Mesh const &mesh, ContactRows const &rows, ConstraintOptions const &options, double dt,
                          std::vector<ContactForce> const &last)
   {
-    if (residualFits())
+    if (nothingFits())
       return;
     AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, options.placement, exchange_);
     bool const grouped = sharesMultipliers(options.placement);
@@ -320,10 +320,22 @@ private:
 
   double violation() const { return contact_.violation(c_.p, c_.r, c_.reach); }
 
+  /// Judge the residual of no impulses, which is what was predicted.
+  bool nothingFits()
+  {
+    Kokkos::deep_copy(c_.r, s_.predicted);
+    return judge();
+  }
+
   /// Compute the residual afresh and judge it.
   bool residualFits()
   {
     contact_.residual(c_.p, c_.r);
+    return judge();
+  }
+
+  bool judge()
+  {
     violation_ = violation();
     solution.residual = violation_ > 0.0 ? violation_ / scale_ : 0.0;
     solution.converged = violation_ <= bound_;

@@ -40,11 +40,11 @@ struct SlowLight
     return condition < 0 ? change : boundary.condition(condition).project(change);
   }
 
-  /// A first look, which lets all light dof nodes of one material pass.
+  /// A first look, which lets all light dof nodes of one deformable material pass.
   KOKKOS_INLINE_FUNCTION bool mayBeLight(int dof) const
   {
     int const own = dof_nodes.material(dof);
-    if (own < 0)
+    if (own < 0 || materials(own).rigid_body >= 0)
       return false;
     int const node = dof_nodes.node(dof);
     double const volume = dof_mass(dof) / (density_range * light_node * materials(own).density0);
