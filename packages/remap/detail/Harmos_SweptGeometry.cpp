@@ -135,10 +135,11 @@ KOKKOS_FORCEINLINE_FUNCTION void splitWhereEdgesCross(Pack const &radius, Packed
     PackedVector const half = Pack(0.5) * (start * u_a + end * u_b), at = end * edge;
     RingSum sum(radius);
     sum.add(select(crosses, volume, Pack(0.0)), p, at + half, at - half);
-    Pack const per_volume = 1.0 / select(crosses, sum.volume, Pack(1.0));
-    swept.volume = select(crosses, sum.volume, swept.volume);
-    swept.centre = {select(crosses, Pack(per_volume * sum.first.x), swept.centre.x),
-                    select(crosses, Pack(per_volume * sum.first.y), swept.centre.y)};
+    auto const leaves = sum.volume > Pack(1e-280); // as in sweptRing: else it has no centroid
+    Pack const per_volume = 1.0 / select(leaves, sum.volume, Pack(1.0));
+    swept.volume = select(leaves, sum.volume, swept.volume);
+    swept.centre = {select(leaves, Pack(per_volume * sum.first.x), swept.centre.x),
+                    select(leaves, Pack(per_volume * sum.first.y), swept.centre.y)};
     return;
   }
   Pack const third = 1.0 / 3.0, end = select(at_a, Pack(0.0), Pack(2.0));
