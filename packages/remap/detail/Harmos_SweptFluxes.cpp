@@ -67,7 +67,7 @@ struct SweptFluxFunctor
       int const cell = first + lane;
       bool const same = lane < count && stage.sameBeyond(cell, k);
       double const *column = stage.at(CentroidX, same ? stage.face_neighbour(cell, k) >> 2 : cell);
-      for (int c = 0; c < num_neighbour_columns; ++c, column += stage.stride)
+      for (int c = 0; c < num_neighbour_columns; ++c, column += column_stride)
         gathered[c][lane] = *column;
     }
   }
@@ -79,7 +79,7 @@ struct SweptFluxFunctor
     {
       bool const in_run = (block & RunBit << k) != 0;
       beyond.face[k] = stage.at(CentroidX, stage.second_order && in_run ? stage.face_neighbour(first, k) >> 2 : first);
-      beyond.stride[k] = stage.stride;
+      beyond.stride[k] = column_stride;
       if (!stage.second_order || in_run)
         continue;
       gather(first, k, gathered[k]);
@@ -217,7 +217,7 @@ struct SweptFluxFunctor
       widen(first, field, p, f);
     Pack const part = limit(f, offset, p, out, weight, per_staying, deviation);
     for (int i = 0; i < out.count; ++i)
-      storePack(out.face[i] + (1 + field) * stage.stride, weight[i] * (q + part * deviation[i]));
+      storePack(out.face[i] + (1 + field) * column_stride, weight[i] * (q + part * deviation[i]));
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Beyond offsets(int first, Columns const &columns) const
@@ -262,15 +262,16 @@ struct SweptFluxFunctor
     for (int i = 0; i < out.count; ++i)
     {
       mass[i] = out.volume[i] * (rho + part * deviation[i]);
-      storePack(out.face[i] + (1 + DensityField) * stage.stride, mass[i]);
+      storePack(out.face[i] + (1 + DensityField) * column_stride, mass[i]);
       staying_mass -= mass[i];
     }
-    Pack const per_mass = 1.0 / staying_mass;
 
-    for (int field = stage.carries() ? KineticField : KineticField + 1; field < DeviatorXX; ++field)
-      remapField(first, field, directions, offset, columns, out, mass, per_mass);
+    // What goes by volume next: the mass fluxes are the end of a long chain, which it hides.
     for (int field = DeviatorXX; field < num_pair_fields; ++field)
       remapField(first, field, directions, offset, columns, out, out.volume, per_volume);
+    Pack const per_mass = 1.0 / staying_mass;
+    for (int field = stage.carries() ? KineticField : KineticField + 1; field < DeviatorXX; ++field)
+      remapField(first, field, directions, offset, columns, out, mass, per_mass);
   }
 };
 

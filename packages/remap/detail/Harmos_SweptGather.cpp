@@ -90,7 +90,7 @@ struct SweptGatherFunctor
       bool const same = stage.sameBeyond(cell, k);
       int const face = same ? stage.face_neighbour(cell, k) : 4 * cell + k;
       double const *column = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
-      for (int c = 0; c < num_face_columns; ++c, column += stage.stride)
+      for (int c = 0; c < num_face_columns; ++c, column += column_stride)
         gathered[c][lane] = same ? *column : 0.0;
       int const mixed = same || !stage.second_order ? -1 : mixedPairBeyond(cell, k);
       if (mixed >= 0)
@@ -104,7 +104,7 @@ struct SweptGatherFunctor
       {
         double const *velocity = stage.at(velocityColumn(face, k, i, goes_beyond), from);
         gathered[num_face_columns + 2 * i][lane] = velocity[0];
-        gathered[num_face_columns + 2 * i + 1][lane] = velocity[stage.stride];
+        gathered[num_face_columns + 2 * i + 1][lane] = velocity[column_stride];
       }
     }
   }
@@ -144,9 +144,10 @@ struct SweptGatherFunctor
   KOKKOS_FORCEINLINE_FUNCTION void findNeighbours(Block const &block, Neighbours &beyond,
                                                   GatheredFace (&gathered)[4]) const
   {
+    HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
-      beyond.stride[k] = stage.stride;
+      beyond.stride[k] = column_stride;
       double const *velocity[2];
       if ((block.bits & RunBit << k) != 0)
       {
@@ -172,14 +173,25 @@ struct SweptGatherFunctor
     }
   }
 
+  /// The fields but density.
+  template <class Visitor>
+  KOKKOS_FORCEINLINE_FUNCTION void forFields(Visitor const &visit) const
+  {
+    if (stage.carries())
+      visit(KineticField);
+    HARMOS_UNROLL
+    for (int f = KineticField + 1; f < num_pair_fields; ++f)
+      visit(f);
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION Exchanged exchange(Block const &block, Neighbours const &beyond) const
   {
     Exchanged e;
     e.volume = own(block, MovedVolume);
     e.flow = 0.0;
-    int const carried = stage.carries() ? KineticField : KineticField + 1;
     for (Pack &change : e.change)
       change = 0.0;
+    HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
       e.outflow[k] = 0.0;
@@ -190,8 +202,7 @@ struct SweptGatherFunctor
         e.flow += leaves;
         e.volume -= leaves;
         e.outflow[k] = own(block, face + 1 + DensityField);
-        for (int f = carried; f < num_pair_fields; ++f)
-          e.change[f] -= own(block, face + 1 + f);
+        forFields([&](int f) { e.change[f] -= own(block, face + 1 + f); });
       }
       Pack const swept = beyond.load(k, 0);
       auto const enters = swept > Pack(0.0);
@@ -200,8 +211,7 @@ struct SweptGatherFunctor
       e.flow += swept;
       e.volume += swept;
       e.outflow[k] -= select(enters, beyond.load(k, 1 + DensityField), Pack(0.0));
-      for (int f = carried; f < num_pair_fields; ++f)
-        e.change[f] += select(enters, beyond.load(k, 1 + f), Pack(0.0));
+      forFields([&](int f) { e.change[f] += select(enters, beyond.load(k, 1 + f), Pack(0.0)); });
     }
     return e;
   }
@@ -241,12 +251,13 @@ struct SweptGatherFunctor
     Pack const moved_volume = own(block, MovedVolume);
     Pack const per_mass = 1.0 / mass1, per_volume = 1.0 / e.volume;
     Pack q[num_pair_fields];
-    for (int f = stage.carries() ? KineticField : KineticField + 1; f < num_pair_fields; ++f)
-    {
-      bool const by_volume = f >= DeviatorXX;
-      q[f] = ((by_volume ? moved_volume : mass) * own(block, FieldColumn + f) + e.change[f]) *
-             (by_volume ? per_volume : per_mass);
-    }
+    forFields(
+        [&](int f)
+        {
+          bool const by_volume = f >= DeviatorXX;
+          q[f] = ((by_volume ? moved_volume : mass) * own(block, FieldColumn + f) + e.change[f]) *
+                 (by_volume ? per_volume : per_mass);
+        });
     returnAllToYield(block, q);
     unsigned flowing = block.pure;
     if (any(e.flow <= Pack(0.0)))
@@ -347,6 +358,7 @@ struct SweptGatherFunctor
     PackedCorners v, gain;
     Pack share[4];
     Pack speed2 = 0.0;
+    HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
       v.x[k] = own(block, CornerColumn + 2 * k);
@@ -375,6 +387,8 @@ struct SweptGatherFunctor
       storePack(stage.at(IncrementColumn + 2 * k + 1, block.first), gain.y[k]);
     }
     Pack const kinetic = 0.125 * mass * speed2;
+    if (stage.all_owned && block.pure == all_lanes)
+      return laneSum(kinetic);
     double sum = 0.0;
     for (int lane = 0; lane < pack_width; ++lane)
       if ((block.pure >> lane & 1u) != 0u && stage.cell_depth[block.cell[lane]] == 0)

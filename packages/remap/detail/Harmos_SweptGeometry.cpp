@@ -198,8 +198,7 @@ struct SweptGeometryFunctor
       int differs = 0;
       for (int lane = 1; lane < pack_width; ++lane)
         differs |= stage.face_neighbour(first + lane, k) ^ (face + 4 * lane);
-      bool const wraps = ((face >> 2) & stage.mask) + pack_width > stage.mask + 1;
-      runs |= ((common & SameBeyondBit << k) != 0 && differs == 0 && !wraps ? RunBit : 0) << k;
+      runs |= ((common & SameBeyondBit << k) != 0 && differs == 0 && stage.inTile(face >> 2) ? RunBit : 0) << k;
     }
     return runs;
   }
@@ -244,6 +243,7 @@ struct SweptGeometryFunctor
     prefetchToRead(stage.position.row(stage.cell_node(cell[0], 2) + rows_ahead));
     prefetchToRead(stage.half.row(stage.dof_node(pair[0], 2) + rows_ahead));
     PackedVector moved[4], middle[4], back[4];
+    HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
       int node[pack_width], dof[pack_width];
@@ -277,6 +277,7 @@ struct SweptGeometryFunctor
     storeFields(first, pair, whole.inverse);
 
     int leaving = 0;
+    HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
       int const next = (k + 1) % 4;

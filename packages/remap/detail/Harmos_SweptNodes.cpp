@@ -34,7 +34,7 @@ struct SweptNodesFunctor
       double const *increment = stage.at(IncrementColumn + 2 * corner, cell);
       g.four_mass += stage.fourShares(cell, corner) * *stage.at(NewMass, cell);
       g.gain[0] += increment[0];
-      g.gain[1] += increment[stage.stride];
+      g.gain[1] += increment[column_stride];
     }
     return g;
   }
@@ -56,7 +56,7 @@ struct SweptNodesFunctor
           continue;
         g.four_mass += stage.fourShares(cell, corner) * stage.record1(pair, Mass);
         if (pure >= 0)
-          g.gain += {increment[0], increment[stage.stride]};
+          g.gain += {increment[0], increment[column_stride]};
       }
     }
     return g;
@@ -128,7 +128,7 @@ struct SweptNodesFunctor
     {
       for (int lane = 1; lane < pack_width; ++lane)
         differs |= item[4 * lane + i] ^ (item[i] + 4 * lane);
-      wraps = wraps || ((item[i] >> 2) & stage.mask) + pack_width > stage.mask + 1;
+      wraps = wraps || !stage.inTile(item[i] >> 2);
     }
     return differs == 0 && !wraps;
   }
@@ -147,7 +147,7 @@ struct SweptNodesFunctor
         mass = mass * packOf([&](int lane) { return stage.fourShares((item >> 2) + lane, item & 3); });
       plain.four_mass += mass;
       plain.gain_x += loadPack(increment);
-      plain.gain_y += loadPack(increment + stage.stride);
+      plain.gain_y += loadPack(increment + column_stride);
     }
     return plain;
   }

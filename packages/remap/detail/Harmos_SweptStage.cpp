@@ -81,8 +81,8 @@ SweptWindow sweptWindow(SweptChunks const &chunks)
   int const rows = 4 * chunks.chunk;
   SweptWindow window;
   window.mask = rows - 1;
-  window.stride = rows + 8; // a row's columns fall on different sets of the cache
-  window.columns = View<double *>("Harmos::remap::sweptColumns", num_swept_columns * window.stride);
+  std::size_t const tiles = rows / tile_rows;
+  window.columns = View<double *>("Harmos::remap::sweptColumns", tiles * num_swept_columns * column_stride);
   window.block = View<int *>("Harmos::remap::sweptBlocks", rows / pack_width);
   return window;
 }
@@ -94,19 +94,20 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
                        View<double *> const &kinetic_before, View<double *[num_pair_fields]> const &record_after,
                        View<double *> const &kinetic_after, View<double *[2]> const &velocity_after)
     : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), third_order(in.options.order > 2),
-      limiter(in.options.limiter), ranges(in.ranges.data()), cell_node(in.mesh.cell_node),
-      face_neighbour(in.mesh.face_neighbour), position(in.start), target(in.mesh.node_position),
-      retargeted(in.retargeted), cell_depth(in.mesh.cell_depth.data()), node_owned(in.mesh.node_owned.data()),
-      first_item(in.mesh.node_cell.offset.data()), item(in.mesh.node_cell.item.data()),
-      first_neighbour(in.mesh.cell_neighbour.offset.data()), neighbour(in.mesh.cell_neighbour.item.data()),
-      node_condition(in.conditions.node_index.data()), condition(in.conditions.condition.data()),
-      first_pair(in.pairs.offset.data()), pair_material(in.pairs.material.data()),
-      first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node), materials(in.materials.data()),
-      record(in.state.record), share(in.share.part), half(in.half), kinetic(kinetic_before.data()),
-      flags(classes.flags.data()), pure_material(classes.pure_material.data()), node_return(classes.node_return.data()),
-      node_final(classes.node_final.data()), node_sweep(classes.node_sweep.data()), mask(window.mask),
-      stride(window.stride), columns(window.columns.data()), block(window.block.data()), spread(window.spread),
-      record1(record_after), velocity1(velocity_after), kinetic1(kinetic_after.data())
+      limiter(in.options.limiter), ranges(in.ranges.data()), all_owned(in.mesh.num_owned_cells == in.mesh.num_cells),
+      cell_node(in.mesh.cell_node), face_neighbour(in.mesh.face_neighbour), position(in.start),
+      target(in.mesh.node_position), retargeted(in.retargeted), cell_depth(in.mesh.cell_depth.data()),
+      node_owned(in.mesh.node_owned.data()), first_item(in.mesh.node_cell.offset.data()),
+      item(in.mesh.node_cell.item.data()), first_neighbour(in.mesh.cell_neighbour.offset.data()),
+      neighbour(in.mesh.cell_neighbour.item.data()), node_condition(in.conditions.node_index.data()),
+      condition(in.conditions.condition.data()), first_pair(in.pairs.offset.data()),
+      pair_material(in.pairs.material.data()), first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node),
+      materials(in.materials.data()), record(in.state.record), share(in.share.part), half(in.half),
+      kinetic(kinetic_before.data()), flags(classes.flags.data()), pure_material(classes.pure_material.data()),
+      node_return(classes.node_return.data()), node_final(classes.node_final.data()),
+      node_sweep(classes.node_sweep.data()), mask(window.mask), columns(window.columns.data()),
+      block(window.block.data()), spread(window.spread), record1(record_after), velocity1(velocity_after),
+      kinetic1(kinetic_after.data())
 {
 }
 

@@ -8,6 +8,15 @@
 
 #include <vector>
 
+/// Before a short loop of constant length: its variables then stay in registers.
+#if defined(__clang__) || defined(__CUDACC__)
+#define HARMOS_UNROLL _Pragma("unroll")
+#elif defined(__GNUC__)
+#define HARMOS_UNROLL _Pragma("GCC unroll 8")
+#else
+#define HARMOS_UNROLL
+#endif
+
 namespace Harmos
 {
 namespace RemapDetail
@@ -48,14 +57,18 @@ enum SweptBlock : int
   all_leave_bits = 15 * LeaveBit
 };
 
+/// Rows of a tile of SweptWindow, and what lies between its columns: a row's fall on different sets of the cache.
+constexpr int tile_rows = 128;
+constexpr int column_stride = tile_rows + 8;
+
 /// What the kernels of stage 1 hand to one another, column by column, so that packs are loaded and stored whole. Cells
 /// share rows: cell c uses row c & mask, for as long as it is needed (SweptChunks), so that all stays in the cache.
-/// The rows of a block's other cells repeat a pure one.
+/// The rows of a block's other cells repeat a pure one. Tiles of rows have their columns one after the other: in
+/// columns of all rows those of a cell lie on more pages of memory than the machine keeps the addresses of.
 struct SweptWindow
 {
   int mask = 0;
-  std::ptrdiff_t stride = 0; // of the columns
-  View<double *> columns;
+  View<double *> columns;   // of tiles
   View<int *> block;        // SweptBlock, a number for pack_width rows
   View<double *[4]> spread; // order 3: the moved cell's central second moments xx, xy, yy over its volume
 };
@@ -90,6 +103,7 @@ struct SweptStage
   RemapLimiter limiter;
   double const *ranges; // fieldRanges: rows of 32 by material; null unless RangeInside
 
+  bool all_owned; // no cell is another rank's
   RowPointer<int, 4> cell_node, face_neighbour;
   RowPointer<double, 2> position; // at the start of the motion
   RowPointer<double, 2> target;   // of the mesh
@@ -111,7 +125,6 @@ struct SweptStage
   int const *flags, *pure_material, *node_return, *node_final, *node_sweep; // of Classes
 
   int mask; // of the window, as what follows
-  std::ptrdiff_t stride;
   double *columns;
   int *block;
   RowPointer<double, 4> spread;
@@ -123,7 +136,14 @@ struct SweptStage
   KOKKOS_FORCEINLINE_FUNCTION bool carries() const { return kinetic != nullptr; }
   KOKKOS_FORCEINLINE_FUNCTION double *at(int column, int cell) const
   {
-    return columns + column * stride + (cell & mask);
+    unsigned const row = static_cast<unsigned>(cell & mask);
+    constexpr std::ptrdiff_t tile = num_swept_columns * column_stride;
+    return columns + (row / tile_rows) * tile + (row % tile_rows) + column * column_stride;
+  }
+  /// Whether the rows of the cells that a pack begins with `cell` are one after the other.
+  KOKKOS_FORCEINLINE_FUNCTION static bool inTile(int cell)
+  {
+    return (cell & (tile_rows - 1)) + pack_width <= tile_rows;
   }
   KOKKOS_FORCEINLINE_FUNCTION int &blockOf(int cell) const { return block[(cell & mask) / pack_width]; }
   /// Whether the mesh ends at a face of a pure cell, or at any, and the limiter minds it.
