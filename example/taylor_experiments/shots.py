@@ -3,7 +3,7 @@
 """Taylor rods of shots.csv beside what was measured.
 
 shots.py HARMOS RESULTS [--cells N] [--all] [--jobs N] runs deck.yaml for every shot (those with an outline; --all: every
-one) and both strength laws, with N cells over the rod's radius, writes RESULTS/shots.md and draws RESULTS/outlines.png.
+one) and every strength law that example/materials has for its metal, with N cells over the rod's radius, writes RESULTS/shots.md and draws RESULTS/outlines.png.
 A shot that has a summary with status `completed` is not run again.
 
 The length is that between the rod's ends, the diameter the largest one: means over the last quarter of the run, when the
@@ -20,7 +20,15 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from completed_run import completedRun  # noqa: E402
-LAWS = {"johnson-cook": "#4C78A8", "steinberg-guinan": "#B65D5D"}
+LAWS = {"johnson-cook": "#4C78A8", "johnson-cook-cylinders": "#3B7D3A", "steinberg-guinan": "#B65D5D"}
+
+
+def lawFile(shot, law):
+    return HERE.parent / "materials" / f"{shot['metal']}-{law}.yaml"
+
+
+def lawsOf(shot):
+    return [law for law in LAWS if lawFile(shot, law).exists()]
 
 
 def rows(path):
@@ -37,7 +45,7 @@ def settings(shot, law, cells):
     return {"title": f"Taylor rod {shot['shot']} m/s, {law}",
             "mesh/x": f"{{from: 0.0, to: {1.5 * diameter!r}, cells: {3 * cells}}}",
             "mesh/y": f"{{from: 0.0, to: {rows_of_cells * width!r}, cells: {rows_of_cells}}}",
-            "materials/metal": f"{{from: ../materials/{shot['metal']}-{law}.yaml{extra}}}",
+            "materials/metal": f"{{from: ../materials/{lawFile(shot, law).name}{extra}}}",
             "bodies/rod/center": f"[0.0, {0.5 * length!r}]", "bodies/rod/size": f"[{diameter!r}, {length!r}]",
             "bodies/rod/velocity": f"[0.0, -{shot['speed']}.0]",
             "run/end_time": 1.0e-4 * length / 25.4e-3}
@@ -68,7 +76,7 @@ def table(results, shots, cells):
     lines = ["| shot [m/s] | law | length [mm] | measured | | diameter [mm] | measured | | plastic strain |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     for shot in shots:
-        for law in LAWS:
+        for law in lawsOf(shot):
             length, diameter, strain = measure(folder(results, shot, law, cells))
             lines.append(f"| {shot['shot']} | {law} | {length:.2f} | {shot['final_length']} | "
                          f"{departure(length, shot['final_length'])} | {diameter:.2f} | {shot['final_diameter']} | "
@@ -105,7 +113,8 @@ def draw(results, shots, cells, picture):
             axis.fill_betweenx(points[1:-2, 1], 0.0, side * points[1:-2, 0], color="#DDDDDD", lw=0.0,
                                label="measured" if side > 0.0 else None)
             axis.plot(side * points[:, 0], points[:, 1], color="#777777", lw=0.8)
-        for law, colour in LAWS.items():
+        for law in lawsOf(shot):
+            colour = LAWS[law]
             axis.add_collection(LineCollection(outline(folder(results, shot, law, cells)), colors=colour, lw=1.4))
             axis.plot([], [], color=colour, lw=1.4, label=law)
         start = 0.5 * float(shot["diameter"])
@@ -128,7 +137,7 @@ def main():
     shots = [shot for shot in rows(HERE / "shots.csv") if options.all or shot["outline"]]
     options.results.mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        runs = [pool.submit(run, options.harmos, options.results, shot, law, options.cells) for shot in shots for law in LAWS]
+        runs = [pool.submit(run, options.harmos, options.results, shot, law, options.cells) for shot in shots for law in lawsOf(shot)]
         for finished in runs:
             finished.result()
     text = table(options.results, shots, options.cells)

@@ -17,7 +17,7 @@ import numpy
 
 
 class Frame:
-    """Volumes of materials in the cells of one fields file (rectilinear mesh)."""
+    """Volumes and masses of materials in the cells of one fields file (rectilinear mesh)."""
 
     def __init__(self, path):
         with h5py.File(path) as file:
@@ -27,10 +27,12 @@ class Frame:
             self.cell = file["pairs/cell"][()].astype(int)
             self.material = file["pairs/material"][()].astype(int)
             self.fraction = file["pairs/volume_fraction"][()]
+            density = file["pairs/density"][()]
         self.low, self.high = corners.min(axis=1), corners.max(axis=1)
         self.middle = 0.5 * (self.low + self.high)
         self.ring = 0.5 * (self.high[:, 0] ** 2 - self.low[:, 0] ** 2)  # per height and radian
         self.radius = self.high[:, 0].max()
+        self.mass = density * self.fraction * (self.ring * (self.high[:, 1] - self.low[:, 1]))[self.cell]  # per radian
 
     def part(self, name):
         """Rows of the pairs of a material."""
@@ -73,6 +75,14 @@ def volumeBeyond(frame, name, z):
     return (frame.fraction[rows] * frame.ring[cell] * height)[beyond].sum()
 
 
+def massFront(frame, names, mass):
+    """Height above which lies that mass [kg per radian] of the materials, to half a cell."""
+    rows = numpy.concatenate([frame.part(name) for name in names])
+    height = frame.middle[frame.cell[rows], 1]
+    down = numpy.argsort(-height)
+    return height[down][numpy.searchsorted(numpy.cumsum(frame.mass[rows][down]), mass)]
+
+
 def frames(directory):
     return [Frame(path) for path in sorted(glob.glob(os.path.join(directory, "fields_*.h5")))]
 
@@ -91,6 +101,13 @@ def frontSpeeds(columns, gap):
     return numpy.polyfit(time, front[flight], 1)[0], numpy.polyfit(time, columns["sphere.x_max"][flight], 1)[0]
 
 
+def massFrontSpeed(shot, gap, mass):
+    """Speed of massFront of sphere and bumper while it crosses the middle of the gap; `shot` are the frames of a run."""
+    front = numpy.array([(frame.time, massFront(frame, ("sphere", "bumper"), mass)) for frame in shot])
+    flight = front[(front[:, 1] > 0.2 * gap) & (front[:, 1] < 0.8 * gap)]
+    return numpy.polyfit(flight[:, 0], flight[:, 1], 1)[0]
+
+
 def maidenAndMcMillan(diameter, thickness, speed):
     """Diameter of the hole; speed in m/s."""
     return diameter * (0.45e-3 * speed * (thickness / diameter) ** (2.0 / 3.0) + 0.9)
@@ -101,7 +118,11 @@ def main():
     directory = sys.argv[1]
     axial, radial = frontSpeeds(history(directory), gap)
     print(f"debris front: {1e-3 * axial:.2f} km/s along the axis ({axial / speed:.2f} V), sphere's debris {1e-3 * radial:.2f} km/s outwards")
-    for frame in frames(directory):
+    shot = frames(directory)
+    sphere = shot[0].mass[shot[0].part("sphere")].sum()
+    heavy = massFrontSpeed(shot, gap, 1e-3 * sphere)
+    print(f"front that holds a thousandth of the sphere's mass: {1e-3 * heavy:.2f} km/s ({heavy / speed:.2f} V)")
+    for frame in shot:
         holes = holeDiameters(frame, "bumper", 0.0, thickness, 0.4 * diameter)
         left = leastThickness(frame, "rear", diameter)
         print(f"{1e6 * frame.time:5.1f} us: hole in the bumper {1e3 * min(holes):.2f} mm (narrowest of {len(holes)} rows; mean {1e3 * numpy.mean(holes):.2f}), "
