@@ -120,23 +120,26 @@ void refuseAbsurdSpeeds(Run const &run)
   auto const dof_node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.pairs.dof_node);
   auto const velocity = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.state.velocity);
   std::vector<std::string> const names = materialNames(run.deck);
-  char text[100];
+  auto const refusal = [most](std::string const &key, double speed)
+  {
+    char text[100];
+    std::snprintf(text, sizeof text, ": a speed of %.3g m/s; expected: at most that of light, %.0f", speed, most);
+    return key + text;
+  };
   std::string cause;
   for (int pair = 0; cause.empty() && pair < s.pairs.num_pairs; ++pair)
     for (int k = 0; k < 4; ++k)
     {
       double const speed = std::hypot(velocity(dof_node(pair, k), 0), velocity(dof_node(pair, k), 1));
-      std::snprintf(text, sizeof text, ": a speed of %.3g m/s; expected: at most that of light, %.0f", speed, most);
       if (!(speed <= most))
-        cause = "bodies/" + names[material(pair)] + text;
+        cause = refusal("bodies/" + names[material(pair)], speed);
     }
   char const *const side_name[] = {"left", "right", "bottom", "top"};
   for (int side = 0; side < num_boundary_sides; ++side)
   {
-    Vector2 const v = run.deck.boundary[side].velocity;
-    std::snprintf(text, sizeof text, ": a speed of %.3g m/s; expected: at most that of light, %.0f", norm(v), most);
-    if (!(norm(v) <= most))
-      cause = std::string("boundaries/") + side_name[side] + text;
+    double const speed = norm(run.deck.boundary[side].velocity);
+    if (!(speed <= most))
+      cause = refusal(std::string("boundaries/") + side_name[side], speed);
   }
   cause = firstCause(*run.comm, cause);
   if (!cause.empty())
