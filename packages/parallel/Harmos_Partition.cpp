@@ -3,11 +3,107 @@
 
 #include <metis.h>
 
+#include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace Harmos
 {
+
+namespace
+{
+
+constexpr int many_groups = 10000; // a part: fewer cost METIS next to nothing
+constexpr int few_parts = 8;       // recursive bisection is as fast, and cuts less
+constexpr int trials = 8;          // the least cut of so many is taken
+
+/// Cells that stay on one rank together.
+struct Groups
+{
+  std::vector<int> of_cell;
+  int count = 0;
+};
+
+/// The groups that meet at a node, one a cell, become one where none of them has become part of another: on a grid
+/// blocks of 2 x 2.
+Groups merged(HostRows const &node_cell, Groups const &groups)
+{
+  std::vector<int> renamed(groups.count, -1);
+  Groups result{groups.of_cell, 0};
+  std::vector<int> meeting;
+  for (std::size_t n = 0; n + 1 < node_cell.offset.size(); ++n)
+  {
+    bool apart = node_cell.offset[n + 1] - node_cell.offset[n] > 2;
+    meeting.clear();
+    for (int i = node_cell.offset[n]; apart && i < node_cell.offset[n + 1]; ++i)
+    {
+      int const group = groups.of_cell[node_cell.item[i] / 4];
+      apart = renamed[group] < 0 && std::find(meeting.begin(), meeting.end(), group) == meeting.end();
+      meeting.push_back(group);
+    }
+    if (apart)
+    {
+      for (int const group : meeting)
+        renamed[group] = result.count;
+      ++result.count;
+    }
+  }
+  for (int &name : renamed)
+    if (name < 0)
+      name = result.count++;
+  for (int &group : result.of_cell)
+    group = renamed[group];
+  return result;
+}
+
+/// What METIS partitions: groups, with edges that count the faces between them.
+struct GroupGraph
+{
+  std::vector<idx_t> offset, neighbour, faces, weight;
+};
+
+GroupGraph groupGraph(HostMesh const &mesh, HostRows const &node_cell, Groups const &groups,
+                      std::vector<int> const &cell_weight)
+{
+  std::vector<int> first(groups.count + 1, 0), cell(mesh.cell.size());
+  for (int const group : groups.of_cell)
+    ++first[group + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (std::size_t c = 0; c < mesh.cell.size(); ++c)
+    cell[next[groups.of_cell[c]]++] = static_cast<int>(c);
+
+  GroupGraph graph;
+  graph.offset.assign(1, 0);
+  graph.weight.assign(groups.count, 0);
+  std::vector<idx_t> edge(groups.count, -1); // of the present group, to each other
+  for (int g = 0; g < groups.count; ++g)
+  {
+    for (int i = first[g]; i < first[g + 1]; ++i)
+    {
+      graph.weight[g] += cell_weight.empty() ? 1 : cell_weight[cell[i]];
+      for (int k = 0; k < 4; ++k)
+      {
+        int const opposite = oppositeFace(mesh, node_cell, cell[i], k);
+        int const other = opposite < 0 ? g : groups.of_cell[opposite / 4];
+        if (other == g)
+          continue;
+        if (edge[other] < graph.offset[g])
+        {
+          edge[other] = static_cast<idx_t>(graph.neighbour.size());
+          graph.neighbour.push_back(other);
+          graph.faces.push_back(0);
+        }
+        ++graph.faces[edge[other]];
+      }
+    }
+    graph.offset.push_back(static_cast<idx_t>(graph.neighbour.size()));
+  }
+  return graph;
+}
+
+} // namespace
 
 std::vector<int> partitionCells(HostMesh const &mesh, int parts, std::vector<int> const &weight)
 {
@@ -22,31 +118,35 @@ std::vector<int> partitionCells(HostMesh const &mesh, int parts, std::vector<int
     return owner;
 
   HostRows const node_cell = cellsAroundNodes(mesh);
-  std::vector<idx_t> offset(1, 0), neighbour, cell_weight(weight.begin(), weight.end());
-  for (std::size_t c = 0; c < num_cells; ++c)
+  Groups groups{std::vector<int>(num_cells), static_cast<int>(num_cells)};
+  std::iota(groups.of_cell.begin(), groups.of_cell.end(), 0);
+  while (groups.count / parts > many_groups)
   {
-    for (int k = 0; k < 4; ++k)
-    {
-      int const opposite = oppositeFace(mesh, node_cell, static_cast<int>(c), k);
-      if (opposite >= 0)
-        neighbour.push_back(opposite / 4);
-    }
-    offset.push_back(static_cast<idx_t>(neighbour.size()));
+    Groups coarser = merged(node_cell, groups);
+    if (coarser.count == groups.count)
+      break;
+    groups = std::move(coarser);
   }
+  GroupGraph graph = groupGraph(mesh, node_cell, groups, weight);
+
+  bool const recursive = parts <= few_parts && groups.count > 10 * parts;
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
   options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_UFACTOR] = 10; // heaviest part at most 1.010 times the mean
-  idx_t vertices = static_cast<idx_t>(num_cells), constraints = 1, num_parts = parts, cut = 0;
-  std::vector<idx_t> part(num_cells);
-  int const status = METIS_PartGraphKway(&vertices, &constraints, offset.data(), neighbour.data(),
-                                         cell_weight.empty() ? nullptr : cell_weight.data(), nullptr, nullptr,
-                                         &num_parts, nullptr, nullptr, options, &cut, part.data());
+  options[METIS_OPTION_NCUTS] = trials;
+  options[METIS_OPTION_UFACTOR] = recursive ? 1 : 10; // heaviest part at most 1.001 or 1.010 times the mean
+  idx_t vertices = groups.count, constraints = 1, num_parts = parts, cut = 0;
+  std::vector<idx_t> part(groups.count);
+  auto const partition = recursive ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  int const status =
+      partition(&vertices, &constraints, graph.offset.data(), graph.neighbour.data(), graph.weight.data(), nullptr,
+                graph.faces.data(), &num_parts, nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK)
     throw std::runtime_error("partition: METIS returned error " + std::to_string(status) + " for " +
                              std::to_string(num_cells) + " cells on " + std::to_string(parts) + " ranks");
-  owner.assign(part.begin(), part.end());
+  for (std::size_t c = 0; c < num_cells; ++c)
+    owner[c] = static_cast<int>(part[groups.of_cell[c]]);
   return owner;
 }
 

@@ -55,6 +55,20 @@ TEST(PartitionCells, gridOnTwoToEightRanks_balancesWithin5PercentWithShortCuts)
   }
 }
 
+TEST(PartitionCells, manyCells_areCutNearlyStraightIntoEqualParts)
+{
+  // 60000 cells: in groups where a part has more than 10000, cell by cell on 8 ranks
+  HostMesh const mesh = grid(300, 200);
+  int const shortest[] = {200, 400, 500};
+  for (int const i : {0, 1, 2})
+  {
+    int const parts = i + 2;
+    std::vector<int> const owner = partitionCells(mesh, parts);
+    EXPECT_LT(imbalance(owner, parts, {}), 1.005) << parts;
+    EXPECT_LT(facesCut(mesh, owner), 1.15 * shortest[i]) << parts;
+  }
+}
+
 TEST(PartitionCells, heavyLeftThird_weightsBalanceWithin5Percent)
 {
   HostMesh const mesh = grid(60, 50);
