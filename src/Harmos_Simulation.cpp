@@ -307,11 +307,9 @@ ExitStatus loop(Run &run, RunOutput &output)
     reportRange(run, report, out_of_range);
     reportRigidOverlap(run);
     run.ledger.cell_steps += cells;
-    long long pairs[1] = {run.state.pairs.num_pairs};
-    if (run.exchange->size() > 1)
-      pairs[0] = countOwnedPairs(run.scene.mesh, run.state.pairs);
-    run.exchange->sum(pairs, 1);
-    run.ledger.pair_steps += static_cast<double>(pairs[0]);
+    long long pairs = countOwnedPairs(*run.exchange, run.scene.mesh, run.state.pairs);
+    run.exchange->sum(&pairs, 1);
+    run.ledger.pair_steps += static_cast<double>(pairs);
 
     double const wall = run.exchange->max(run.timer.seconds());
     bool const stop = run.exchange->max(interrupted() ? 1.0 : 0.0) > 0.0;

@@ -116,13 +116,15 @@ double failedMass(Scene const &scene, CycleState const &s, int material)
 
 } // namespace
 
-long long countOwnedPairs(Mesh const &mesh, CellMaterialPairs const &pairs)
+long long countOwnedPairs(Exchange const &exchange, Mesh const &mesh, CellMaterialPairs const &pairs)
 {
-  long long owned = 0;
+  auto const halo = exchange.haloCells(mesh.halo).received;
+  auto const offset = pairs.offset;
+  long long others = 0;
   Kokkos::parallel_reduce(
-      "Harmos::countOwnedPairs", RangePolicy(0, pairs.num_pairs),
-      KOKKOS_LAMBDA(int pair, long long &part) { part += mesh.cell_depth(pairs.cell(pair)) == 0 ? 1 : 0; }, owned);
-  return owned;
+      "Harmos::countHaloPairs", RangePolicy(0, static_cast<int>(halo.extent(0))),
+      KOKKOS_LAMBDA(int i, long long &part) { part += offset(halo(i) + 1) - offset(halo(i)); }, others);
+  return pairs.num_pairs - others;
 }
 
 Totals computeTotals(Scene const &scene, CycleState const &s, int num_materials, bool with_extents)

@@ -29,7 +29,7 @@ struct Totals
 Totals computeTotals(Scene const &scene, CycleState const &state, int num_materials, bool with_extents);
 
 /// Pairs of this rank's own cells.
-long long countOwnedPairs(Mesh const &mesh, CellMaterialPairs const &pairs);
+long long countOwnedPairs(Exchange const &exchange, Mesh const &mesh, CellMaterialPairs const &pairs);
 
 } // namespace Harmos
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_StateExchange.hpp>
 
+#include <Harmos_Prefetch.hpp>
+
 #include <string>
 
 namespace Harmos
@@ -30,6 +32,47 @@ V uninitialised(char const *label, int size)
 {
   return V(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), size);
 }
+
+/// Asks for what a walk over the pairs of listed cells needs next. The cells of a halo lie far apart: where cells are
+/// numbered by rows each row holds a few of them.
+struct PairsAhead
+{
+  View<int *> cells;
+  CellMaterialPairs pairs;
+  RowPointer<int, 4> dof_node;
+  RowPointer<double, 2> velocity;
+
+  PairsAhead(View<int *> const &c, CellMaterialPairs const &p, View<double *[2]> const &v)
+      : cells(c), pairs(p), dof_node(p.dof_node), velocity(v)
+  {
+  }
+
+  /// The first pair of the cell `steps` ahead of entry i; may be one that is not there.
+  KOKKOS_FORCEINLINE_FUNCTION int pair(int i, int steps) const
+  {
+    constexpr int step = 8;
+    return pairs.offset(cells(Math::min(i + steps * step, static_cast<int>(cells.extent(0)) - 1)));
+  }
+  /// Where the corners are has to come before their velocities.
+  KOKKOS_FORCEINLINE_FUNCTION void askForCorners(int i) const
+  {
+#ifdef HARMOS_VECTOR_TYPES
+    prefetchToRead(dof_node.row(pair(i, 2)));
+    int const next = pair(i, 1);
+    for (int k = 0; k < 4 && next < pairs.num_pairs; ++k)
+      prefetchToRead(velocity.row(dof_node(next, k)));
+#else
+    (void)i;
+#endif
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void askForState(int i, RowPointer<double, num_pair_fields> const &record,
+                                               RowPointer<double, 2> const &centroid) const
+  {
+    askForCorners(i);
+    prefetchToRead(record.row(pair(i, 1)));
+    prefetchToRead(centroid.row(pair(i, 1)));
+  }
+};
 
 /// Numbers of pairs of the listed cells.
 View<int *> countPairs(View<int *> const &cells, View<int *> const &pair_offset)
@@ -66,8 +109,10 @@ void packPairs(View<int *> const &cells, CellMaterialPairs const &pairs, PairSta
   CellMaterialPairs const p = pairs;
   PairState const s = state;
   PackedRows const r = rows;
+  PairsAhead const ahead(cells, pairs, state.velocity);
   Kokkos::parallel_for(
       "Harmos::mesh::packPairs", RangePolicy(0, static_cast<int>(cells.extent(0))), KOKKOS_LAMBDA(int i) {
+        ahead.askForState(i, s.record, s.centroid);
         int const first = p.offset(cells(i));
         for (int row = r.offset(i); row < r.offset(i + 1); ++row)
         {
@@ -113,10 +158,12 @@ void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMateri
   CellMaterialPairs const p = pairs;
   PairState const s = state;
   PackedRows const r = rows;
+  PairsAhead const ahead(cells, pairs, state.velocity);
   int changed = 0;
   Kokkos::parallel_reduce(
       "Harmos::mesh::overwritePairs", RangePolicy(0, static_cast<int>(cells.extent(0))),
       KOKKOS_LAMBDA(int i, int &sum) {
+        ahead.askForState(i, s.record, s.centroid);
         int const cell = cells(i);
         for (int row = r.offset(i); row < r.offset(i + 1); ++row)
         {
@@ -297,8 +344,10 @@ void exchangeDofVelocities(Exchange const &exchange, int depth, CellMaterialPair
   PackedRows const sent = makeRows(countPairs(halo.sent, pairs.offset), 8);
   PackedRows const received = makeRows(countPairs(halo.received, pairs.offset), 8);
   CellMaterialPairs const p = pairs;
+  PairsAhead const next_sent(halo.sent, pairs, velocity), next_received(halo.received, pairs, velocity);
   Kokkos::parallel_for(
       "Harmos::mesh::packCorners", RangePolicy(0, static_cast<int>(halo.sent.extent(0))), KOKKOS_LAMBDA(int i) {
+        next_sent.askForCorners(i);
         int const first = p.offset(halo.sent(i)) - sent.offset(i);
         for (int row = sent.offset(i); row < sent.offset(i + 1); ++row)
           for (int k = 0; k < 8; ++k)
@@ -308,6 +357,7 @@ void exchangeDofVelocities(Exchange const &exchange, int depth, CellMaterialPair
   // Pairs that share a dof node write the same bits.
   Kokkos::parallel_for(
       "Harmos::mesh::unpackCorners", RangePolicy(0, static_cast<int>(halo.received.extent(0))), KOKKOS_LAMBDA(int i) {
+        next_received.askForCorners(i);
         int const first = p.offset(halo.received(i)) - received.offset(i);
         for (int row = received.offset(i); row < received.offset(i + 1); ++row)
           for (int k = 0; k < 8; ++k)
