@@ -257,6 +257,8 @@ HostMesh jitteredMesh(std::vector<double> const &x, std::vector<double> const &y
 {
   require(jitter >= 0.0 && jitter < 0.25, "jittered mesh: jitter = " + std::to_string(jitter) + " is not in [0, 0.25)");
   HostMesh mesh = rectilinearMesh(x, y);
+  if (jitter == 0.0)
+    return mesh;
   std::mt19937 random(seed);
   auto const shift = [&random, jitter](std::vector<double> const &at, std::size_t i)
   {

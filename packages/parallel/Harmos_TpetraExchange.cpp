@@ -59,29 +59,54 @@ void setCells(CellList &list, Teuchos::ArrayView<Map::local_ordinal_type const> 
   list.packets.resize(map_number.size());
 }
 
-/// Source: owned cells; target: all cells of depth <= `depth`. Both in the mesh's own (ascending) order, interleaved.
+/// Which owned cells lie within `depth` layers of vertex neighbours of a halo cell: no other rank holds the rest.
+std::vector<char> cellsNearHalo(Mesh const &mesh, HostView<int *> const &cell_depth, int depth)
+{
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_neighbour.offset);
+  auto const item = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_neighbour.item);
+  std::vector<char> near(mesh.num_cells, 0);
+  std::vector<int> front, next;
+  for (int c = 0; c < mesh.num_cells; ++c)
+    if (cell_depth(c) == 1)
+      front.push_back(c);
+  for (int layer = 0; layer < depth; ++layer)
+  {
+    next.clear();
+    for (int const c : front)
+      for (int i = offset(c); i < offset(c + 1); ++i)
+        if (cell_depth(item(i)) == 0 && near[item(i)] == 0)
+        {
+          near[item(i)] = 1;
+          next.push_back(item(i));
+        }
+    front.swap(next);
+  }
+  return near;
+}
+
+/// Source: owned cells that others hold; target: halo cells of depth <= `depth`. Both ascending.
 std::unique_ptr<Pattern> makePattern(Teuchos::RCP<Teuchos::Comm<int> const> const &comm, Mesh const &mesh, int depth)
 {
   auto const cell_depth = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_depth);
   auto const cell_global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_global);
-  std::vector<GlobalOrdinal> owned_global, overlapping_global;
-  std::vector<int> owned, overlapping;
-  auto pattern = std::make_unique<Pattern>();
+  std::vector<char> const near = cellsNearHalo(mesh, cell_depth, depth);
+  std::vector<GlobalOrdinal> owned_global, halo_global;
+  std::vector<int> owned, halo;
   for (int c = 0; c < mesh.num_cells; ++c)
-  {
-    if (cell_depth(c) > depth)
-      continue;
-    overlapping.push_back(c);
-    overlapping_global.push_back(cell_global(c));
-    if (cell_depth(c) == 0)
+    if (near[c] == 1)
     {
       owned.push_back(c);
       owned_global.push_back(cell_global(c));
     }
-  }
-  pattern->import = Teuchos::rcp(new Import(mapOf(owned_global, comm), mapOf(overlapping_global, comm)));
+    else if (cell_depth(c) > 0 && cell_depth(c) <= depth)
+    {
+      halo.push_back(c);
+      halo_global.push_back(cell_global(c));
+    }
+  auto pattern = std::make_unique<Pattern>();
+  pattern->import = Teuchos::rcp(new Import(mapOf(owned_global, comm), mapOf(halo_global, comm)));
   setCells(pattern->sent, pattern->import->getExportLIDs(), owned);
-  setCells(pattern->received, pattern->import->getRemoteLIDs(), overlapping);
+  setCells(pattern->received, pattern->import->getRemoteLIDs(), halo);
   return pattern;
 }
 
