@@ -33,44 +33,95 @@ V uninitialised(char const *label, int size)
   return V(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), size);
 }
 
-/// Asks for what a walk over the pairs of listed cells needs next. The cells of a halo lie far apart: where cells are
-/// numbered by rows each row holds a few of them.
-struct PairsAhead
+/// The pairs of listed cells, which lie far apart: where cells are numbered by rows each row holds a few of a halo.
+/// A walk over them asks ahead for what it needs.
+struct ScatteredPairs
 {
   View<int *> cells;
-  CellMaterialPairs pairs;
+  View<int *> offset;
+  int num_pairs;
   RowPointer<int, 4> dof_node;
   RowPointer<double, 2> velocity;
 
-  PairsAhead(View<int *> const &c, CellMaterialPairs const &p, View<double *[2]> const &v)
-      : cells(c), pairs(p), dof_node(p.dof_node), velocity(v)
+  ScatteredPairs(View<int *> const &listed, CellMaterialPairs const &pairs, View<double *[2]> const &of_dof_nodes)
+      : cells(listed), offset(pairs.offset), num_pairs(pairs.num_pairs), dof_node(pairs.dof_node),
+        velocity(of_dof_nodes)
   {
   }
 
-  /// The first pair of the cell `steps` ahead of entry i; may be one that is not there.
-  KOKKOS_FORCEINLINE_FUNCTION int pair(int i, int steps) const
+  /// The velocities of a pair's corners, to and from eight numbers.
+  KOKKOS_FORCEINLINE_FUNCTION void readCorners(int pair, double *corner) const
   {
-    constexpr int step = 8;
-    return pairs.offset(cells(Math::min(i + steps * step, static_cast<int>(cells.extent(0)) - 1)));
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < 2; ++d)
+        corner[2 * k + d] = velocity(dof_node(pair, k), d);
   }
+  KOKKOS_FORCEINLINE_FUNCTION void writeCorners(int pair, double const *corner) const
+  {
+    for (int k = 0; k < 4; ++k)
+      for (int d = 0; d < 2; ++d)
+        velocity(dof_node(pair, k), d) = corner[2 * k + d];
+  }
+
   /// Where the corners are has to come before their velocities.
   KOKKOS_FORCEINLINE_FUNCTION void askForCorners(int i) const
   {
 #ifdef HARMOS_VECTOR_TYPES
-    prefetchToRead(dof_node.row(pair(i, 2)));
-    int const next = pair(i, 1);
-    for (int k = 0; k < 4 && next < pairs.num_pairs; ++k)
+    prefetchToRead(dof_node.row(pairAhead(i, 2)));
+    int const next = pairAhead(i, 1);
+    for (int k = 0; k < 4 && next < num_pairs; ++k)
       prefetchToRead(velocity.row(dof_node(next, k)));
 #else
     (void)i;
 #endif
   }
-  KOKKOS_FORCEINLINE_FUNCTION void askForState(int i, RowPointer<double, num_pair_fields> const &record,
-                                               RowPointer<double, 2> const &centroid) const
+  /// The first pair of the cell `steps` ahead of entry i; may be one that is not there.
+  KOKKOS_FORCEINLINE_FUNCTION int pairAhead(int i, int steps) const
+  {
+    constexpr int step = 8;
+    return offset(cells(Math::min(i + steps * step, static_cast<int>(cells.extent(0)) - 1)));
+  }
+};
+
+/// The same with all that travels.
+struct ScatteredStates : ScatteredPairs
+{
+  RowPointer<double, num_pair_fields> record;
+  RowPointer<double, 2> centroid;
+  double *damage;
+  bool tracks_damage;
+
+  ScatteredStates(View<int *> const &listed, CellMaterialPairs const &pairs, PairState const &state)
+      : ScatteredPairs(listed, pairs, state.velocity), record(state.record), centroid(state.centroid),
+        damage(state.damage.data()), tracks_damage(state.tracks_damage)
+  {
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void read(int pair, double *packet) const
+  {
+    for (int f = 0; f < num_pair_fields; ++f)
+      packet[PacketRecord + f] = record(pair, f);
+    for (int d = 0; d < 2; ++d)
+      packet[PacketCentroid + d] = centroid(pair, d);
+    readCorners(pair, packet + PacketVelocity);
+    if (tracks_damage)
+      packet[PacketDamage] = damage[pair];
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void write(int pair, double const *packet) const
+  {
+    for (int f = 0; f < num_pair_fields; ++f)
+      record(pair, f) = packet[PacketRecord + f];
+    for (int d = 0; d < 2; ++d)
+      centroid(pair, d) = packet[PacketCentroid + d];
+    writeCorners(pair, packet + PacketVelocity);
+    if (tracks_damage)
+      damage[pair] = packet[PacketDamage];
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void ask(int i) const
   {
     askForCorners(i);
-    prefetchToRead(record.row(pair(i, 1)));
-    prefetchToRead(centroid.row(pair(i, 1)));
+    prefetchToRead(record.row(pairAhead(i, 1)));
+    prefetchToRead(centroid.row(pairAhead(i, 1)));
   }
 };
 
@@ -106,27 +157,17 @@ PackedRows makeRows(View<int *> const &count, int width)
 
 void packPairs(View<int *> const &cells, CellMaterialPairs const &pairs, PairState const &state, PackedRows const &rows)
 {
-  CellMaterialPairs const p = pairs;
-  PairState const s = state;
+  auto const material = pairs.material;
   PackedRows const r = rows;
-  PairsAhead const ahead(cells, pairs, state.velocity);
+  ScatteredStates const states(cells, pairs, state);
   Kokkos::parallel_for(
       "Harmos::mesh::packPairs", RangePolicy(0, static_cast<int>(cells.extent(0))), KOKKOS_LAMBDA(int i) {
-        ahead.askForState(i, s.record, s.centroid);
-        int const first = p.offset(cells(i));
+        states.ask(i);
+        int const first = states.offset(cells(i)) - r.offset(i);
         for (int row = r.offset(i); row < r.offset(i + 1); ++row)
         {
-          int const pair = first + row - r.offset(i);
-          r(row, PacketMaterial) = p.material(pair);
-          for (int f = 0; f < num_pair_fields; ++f)
-            r(row, PacketRecord + f) = s.record(pair, f);
-          for (int d = 0; d < 2; ++d)
-            r(row, PacketCentroid + d) = s.centroid(pair, d);
-          for (int k = 0; k < 4; ++k)
-            for (int d = 0; d < 2; ++d)
-              r(row, PacketVelocity + 2 * k + d) = s.velocity(p.dof_node(pair, k), d);
-          if (s.tracks_damage)
-            r(row, PacketDamage) = s.damage(pair);
+          r(row, PacketMaterial) = material(first + row);
+          states.read(first + row, &r(row, 0));
         }
       });
 }
@@ -156,29 +197,19 @@ bool sameMaterials(View<int *> const &cells, PackedRows const &rows, CellMateria
 void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMaterialPairs &pairs, PairState const &state)
 {
   CellMaterialPairs const p = pairs;
-  PairState const s = state;
+  auto const record = state.record;
   PackedRows const r = rows;
-  PairsAhead const ahead(cells, pairs, state.velocity);
+  ScatteredStates const states(cells, pairs, state);
   int changed = 0;
   Kokkos::parallel_reduce(
       "Harmos::mesh::overwritePairs", RangePolicy(0, static_cast<int>(cells.extent(0))),
       KOKKOS_LAMBDA(int i, int &sum) {
-        ahead.askForState(i, s.record, s.centroid);
+        states.ask(i);
         int const cell = cells(i);
+        int const first = p.offset(cell) - r.offset(i);
         for (int row = r.offset(i); row < r.offset(i + 1); ++row)
-        {
-          int const pair = p.offset(cell) + row - r.offset(i);
-          for (int f = 0; f < num_pair_fields; ++f)
-            s.record(pair, f) = r(row, PacketRecord + f);
-          for (int d = 0; d < 2; ++d)
-            s.centroid(pair, d) = r(row, PacketCentroid + d);
-          for (int k = 0; k < 4; ++k)
-            for (int d = 0; d < 2; ++d)
-              s.velocity(p.dof_node(pair, k), d) = r(row, PacketVelocity + 2 * k + d);
-          if (s.tracks_damage)
-            s.damage(pair) = r(row, PacketDamage);
-        }
-        sum += p.cell_kind(cell) != cellKind(p, s.record, cell) ? 1 : 0;
+          states.write(first + row, &r(row, 0));
+        sum += p.cell_kind(cell) != cellKind(p, record, cell) ? 1 : 0;
       },
       changed);
   if (changed == 0)
@@ -187,7 +218,7 @@ void overwritePairs(View<int *> const &cells, PackedRows const &rows, CellMateri
   Kokkos::deep_copy(kind, p.cell_kind);
   Kokkos::parallel_for(
       "Harmos::mesh::receivedKinds", RangePolicy(0, static_cast<int>(cells.extent(0))),
-      KOKKOS_LAMBDA(int i) { kind(cells(i)) = cellKind(p, s.record, cells(i)); });
+      KOKKOS_LAMBDA(int i) { kind(cells(i)) = cellKind(p, record, cells(i)); });
   pairs.cell_kind = kind;
 }
 
@@ -343,25 +374,22 @@ void exchangeDofVelocities(Exchange const &exchange, int depth, CellMaterialPair
   HaloCells const halo = exchange.haloCells(depth);
   PackedRows const sent = makeRows(countPairs(halo.sent, pairs.offset), 8);
   PackedRows const received = makeRows(countPairs(halo.received, pairs.offset), 8);
-  CellMaterialPairs const p = pairs;
-  PairsAhead const next_sent(halo.sent, pairs, velocity), next_received(halo.received, pairs, velocity);
+  ScatteredPairs const from(halo.sent, pairs, velocity), to(halo.received, pairs, velocity);
   Kokkos::parallel_for(
       "Harmos::mesh::packCorners", RangePolicy(0, static_cast<int>(halo.sent.extent(0))), KOKKOS_LAMBDA(int i) {
-        next_sent.askForCorners(i);
-        int const first = p.offset(halo.sent(i)) - sent.offset(i);
+        from.askForCorners(i);
+        int const first = from.offset(from.cells(i)) - sent.offset(i);
         for (int row = sent.offset(i); row < sent.offset(i + 1); ++row)
-          for (int k = 0; k < 8; ++k)
-            sent(row, k) = velocity(p.dof_node(first + row, k / 2), k % 2);
+          from.readCorners(first + row, &sent(row, 0));
       });
   exchange.exchangePacked(sent, received, depth);
   // Pairs that share a dof node write the same bits.
   Kokkos::parallel_for(
       "Harmos::mesh::unpackCorners", RangePolicy(0, static_cast<int>(halo.received.extent(0))), KOKKOS_LAMBDA(int i) {
-        next_received.askForCorners(i);
-        int const first = p.offset(halo.received(i)) - received.offset(i);
+        to.askForCorners(i);
+        int const first = to.offset(to.cells(i)) - received.offset(i);
         for (int row = received.offset(i); row < received.offset(i + 1); ++row)
-          for (int k = 0; k < 8; ++k)
-            velocity(p.dof_node(first + row, k / 2), k % 2) = received(row, k);
+          to.writeCorners(first + row, &received(row, 0));
       });
 }
 
