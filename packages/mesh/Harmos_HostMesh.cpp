@@ -176,6 +176,42 @@ void checkFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int fa
 
 } // namespace
 
+void checkCells(HostMesh const &mesh)
+{
+  int const num_nodes = static_cast<int>(mesh.node.size());
+  int const num_cells = static_cast<int>(mesh.cell.size());
+  require(mesh.face_boundary.size() == mesh.cell.size(), "mesh: " + std::to_string(num_cells) +
+                                                             " cells but boundary numbers of " +
+                                                             std::to_string(mesh.face_boundary.size()));
+  std::vector<char> touched(num_nodes, 0);
+  for (int c = 0; c < num_cells; ++c)
+  {
+    std::array<Corner, 4> q;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const node = mesh.cell[c][k];
+      if (node < 0 || node >= num_nodes)
+        fail("cell " + std::to_string(c) + ": node " + std::to_string(node) + " is not in [0, " +
+             std::to_string(num_nodes) + ")");
+      touched[node] = 1;
+      q[k] = mesh.node[node];
+    }
+    int const bad = badCorner(q);
+    if (bad >= 0)
+      fail("cell " + std::to_string(c) + ": corner " + std::to_string(bad) + " at " + text(q[bad]) +
+           " is not strictly convex");
+  }
+  for (int n = 0; n < num_nodes; ++n)
+    if (touched[n] == 0)
+      fail("node " + std::to_string(n) + ": no cell touches it");
+}
+
+void checkFaces(HostMesh const &mesh, HostRows const &node_cell, int cell)
+{
+  for (int k = 0; k < 4; ++k)
+    checkFace(mesh, node_cell, cell, k);
+}
+
 HostRows cellsAroundNodes(HostMesh const &mesh)
 {
   HostRows rows;
@@ -210,34 +246,10 @@ int oppositeFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int 
 
 void checkHostMesh(HostMesh const &mesh)
 {
-  int const num_nodes = static_cast<int>(mesh.node.size());
-  int const num_cells = static_cast<int>(mesh.cell.size());
-  require(mesh.face_boundary.size() == mesh.cell.size(), "mesh: " + std::to_string(num_cells) +
-                                                             " cells but boundary numbers of " +
-                                                             std::to_string(mesh.face_boundary.size()));
-  for (int c = 0; c < num_cells; ++c)
-  {
-    std::array<Corner, 4> q;
-    for (int k = 0; k < 4; ++k)
-    {
-      int const node = mesh.cell[c][k];
-      if (node < 0 || node >= num_nodes)
-        fail("cell " + std::to_string(c) + ": node " + std::to_string(node) + " is not in [0, " +
-             std::to_string(num_nodes) + ")");
-      q[k] = mesh.node[node];
-    }
-    int const bad = badCorner(q);
-    if (bad >= 0)
-      fail("cell " + std::to_string(c) + ": corner " + std::to_string(bad) + " at " + text(q[bad]) +
-           " is not strictly convex");
-  }
+  checkCells(mesh);
   HostRows const node_cell = cellsAroundNodes(mesh);
-  for (int n = 0; n < num_nodes; ++n)
-    if (node_cell.offset[n] == node_cell.offset[n + 1])
-      fail("node " + std::to_string(n) + ": no cell touches it");
-  for (int c = 0; c < num_cells; ++c)
-    for (int k = 0; k < 4; ++k)
-      checkFace(mesh, node_cell, c, k);
+  for (int c = 0; c < static_cast<int>(mesh.cell.size()); ++c)
+    checkFaces(mesh, node_cell, c);
 }
 
 HostMesh rectilinearMesh(std::vector<double> const &x, std::vector<double> const &y)

@@ -36,6 +36,10 @@ int oppositeFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int 
 ///        boundary number on an inner face, arrays of different lengths; or the node that no cell touches.
 void checkHostMesh(HostMesh const &mesh);
 
+/// Its two parts: arrays, node numbers and corners, without which cellsAroundNodes cannot be made; and a cell's faces.
+void checkCells(HostMesh const &mesh);
+void checkFaces(HostMesh const &mesh, HostRows const &node_cell, int cell);
+
 /// Cells between coordinate lines, numbered row by row from the lower left.
 ///
 /// \param x, y  Strictly ascending, two or more values each. [length]

@@ -182,7 +182,7 @@ Mesh buildMesh(HostMesh const &whole)
 
 Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int rank, int halo)
 {
-  checkHostMesh(whole);
+  checkCells(whole);
   if (owner.size() != whole.cell.size())
     throw std::runtime_error("local mesh: " + std::to_string(whole.cell.size()) + " cells but owners of " +
                              std::to_string(owner.size()));
@@ -190,6 +190,8 @@ Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int ra
     throw std::runtime_error("local mesh: halo = " + std::to_string(halo) + " < 0");
   HostRows const node_cell = cellsAroundNodes(whole);
   Selection const s = select(whole, haloDepths(whole, node_cell, owner, rank, halo));
+  for (int const cell : s.cell)
+    checkFaces(whole, node_cell, cell);
   Mesh mesh;
   mesh.halo = halo;
   setCells(mesh, whole, node_cell, s);

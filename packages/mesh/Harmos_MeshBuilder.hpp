@@ -16,7 +16,8 @@ Mesh buildMesh(HostMesh const &whole);
 ///
 /// \param owner  Rank of each cell of the whole mesh. A rank without cells gets an empty mesh.
 /// \param halo   Layers, >= 0.
-/// A node belongs to the owner of the lowest-numbered cell around it. \throw std::runtime_error
+/// A node belongs to the owner of the lowest-numbered cell around it.
+/// \throw std::runtime_error as checkHostMesh; faces of the cells that the rank holds alone: others need not throw.
 Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int rank, int halo);
 
 /// Cell areas, volumes and corner shares from the node positions (which the caller has moved).
