@@ -221,6 +221,35 @@ std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause)
 namespace
 {
 
+/// Splinters of interfaces were seen to jump from end to end of cells beyond this.
+constexpr double longest_cells = 4.0;
+
+/// Largest length over width of a cell; 1 in strips of one cell, where no interface is oblique.
+double longestCell(Deck const &deck)
+{
+  auto const largest = [](AxisSpec const &axis)
+  { return std::max(axis.position(1) - axis.from, axis.to - axis.position(axis.cells - 1)); };
+  if (deck.x.cells == 1 || deck.y.cells == 1)
+    return 1.0;
+  return std::max(largest(deck.x) / deck.y.smallestCell(), largest(deck.y) / deck.x.smallestCell());
+}
+
+void warnOfLongCells(Run &run)
+{
+  Deck const &deck = run.deck;
+  if (deck.kinematics != Kinematics::Xfem || deck.fields.size() < 2 || run.scene.prescribed.kind != FieldKind::None)
+    return;
+  double const ratio = longestCell(deck);
+  if (!(ratio > longest_cells * (1.0 + 1e-9)))
+    return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "mesh: cells are up to %.3g times as long as wide; beyond %.0f splinters of the bodies' interfaces may "
+                "jump over them, and contact is rough",
+                ratio, longest_cells);
+  warn(run, text);
+}
+
 /// "mesh: 200 x 100 cells", or the cells of all blocks.
 std::string sizeOf(Deck const &deck)
 {
@@ -288,6 +317,7 @@ void setUp(Run &run)
     throw DeckError(cause);
   if (fresh)
     placeTracers(run);
+  warnOfLongCells(run);
 }
 
 void claimDirectory(Run &run)

@@ -127,6 +127,15 @@ def test_an_inverted_cell_stops_the_run_and_keeps_the_last_checkpoint():
     clean(r)
 
 
+def test_long_cells_between_bodies_are_a_warning():
+    for cells, warned in ((60, False), (8, True)):
+        r = harmos("two_discs/deck.yaml", {"mesh/x/cells": 60, "mesh/y/cells": cells, "run/max_cycles": 1})
+        words = [w for w in r.summary["warnings"] if "times as long as wide" in w]
+        assert len(words) == (1 if warned else 0), r.summary["warnings"]
+        assert not warned or "6 times" in words[0] and words[0] in r.text, words
+        clean(r)
+
+
 def test_a_healthy_time_step_is_good_at_any_end_time():
     r = harmos(BALL, {"run/end_time": 1e6, **SHORT})
     assert r.summary["cycles"] == 3 and not r.summary["warnings"], r.summary
