@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Harmos_InterfaceCells.hpp>
 #include <Harmos_InterfaceSegments.hpp>
 
 #include <stdexcept>
@@ -180,15 +179,50 @@ KOKKOS_INLINE_FUNCTION PiecePoints piecePoints(Placement placement, bool free)
   return {two ? 2 : 1, gauss_point};
 }
 
+// What fills a cell: the material of a pure one, else one of these.
+constexpr int void_filling = -1;
+constexpr int mixed_filling = -2;
+
 /// Writes the segments of single cells.
 struct SegmentFinder
 {
   Mesh mesh;
   CellMaterialPairs pairs;
   FilledRegions regions;
-  CellSurface surface;
+  View<Boundary *> boundary;
+  View<int *> filling;
   View<InterfaceSegment *> segment;
   Placement placement;
+
+  KOKKOS_INLINE_FUNCTION bool contactWall(int cell, int face) const
+  {
+    int const b = mesh.face_boundary(cell, face);
+    return b >= 0 && boundary(b).kind == BoundaryKind::ContactWall;
+  }
+
+  KOKKOS_INLINE_FUNCTION int fillingOf(int cell) const
+  {
+    int const kind = pairs.cell_kind(cell);
+    return kind == PureCell ? pairs.material(pairs.offset(cell)) : kind == VoidCell ? void_filling : mixed_filling;
+  }
+
+  /// False where no segment can lie: a pure cell among its like, void away from contact walls.
+  KOKKOS_INLINE_FUNCTION bool visits(int cell) const
+  {
+    if (mesh.halo > 0 && mesh.cell_depth(cell) >= mesh.halo)
+      return false;
+    int const own = filling(cell);
+    if (own == mixed_filling)
+      return true;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const across = mesh.face_neighbour(cell, k);
+      if (across >= 0 ? own >= 0 && filling(across / 4) != own
+                      : contactWall(cell, k) || (own >= 0 && mesh.face_boundary(cell, k) < 0))
+        return true;
+    }
+    return false;
+  }
 
   KOKKOS_INLINE_FUNCTION void coverBy(int cell, int except, Edge const &edge, double tolerance,
                                       EdgeCovers &covers) const
@@ -222,10 +256,10 @@ struct SegmentFinder
     int const across = face < 0 ? -1 : mesh.face_neighbour(cell, face);
     bool const outer = face >= 0 && across < 0;
     bool const free = outer && mesh.face_boundary(cell, face) < 0;
-    if (outer ? !free && !surface.contactWall(cell, face) : across >= 0 && surface.filling(across / 4) == material)
+    if (outer ? !free && !contactWall(cell, face) : across >= 0 && filling(across / 4) == material)
       return 0;
     EdgePieces pieces;
-    if (outer || (across >= 0 && surface.filling(across / 4) != mixed_filling))
+    if (outer || (across >= 0 && filling(across / 4) != mixed_filling))
       wholeEdge(edge.length, pieces);
     else
     {
@@ -289,7 +323,7 @@ struct SegmentFinder
   {
     int const cell = blank.cell, begin = pairs.offset(cell);
     int count = 0;
-    if (surface.filling(cell) >= 0)
+    if (filling(cell) >= 0)
     {
       for (int k = 0; k < 4; ++k)
         if (frame.face[k].length > frame.tolerance)
@@ -318,7 +352,7 @@ struct SegmentFinder
     int count = regionSegments(frame, blank, first);
     for (int k = 0; k < 4; ++k)
     {
-      if (!surface.contactWall(cell, k))
+      if (!contactWall(cell, k))
         continue;
       if (first + count < static_cast<int>(segment.extent(0)))
       {
@@ -347,6 +381,27 @@ View<T *> unset(char const *label, int size)
   return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
 }
 
+/// The cells that may carry segments, ascending.
+View<int *> interfaceCells(Mesh const &mesh, SegmentFinder const &finder, int &count)
+{
+  View<int *> const filling = finder.filling;
+  Kokkos::parallel_for(
+      "Harmos::constrain::fillings", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell) { filling(cell) = finder.fillingOf(cell); });
+  View<int *> const visited = unset<int>("Harmos::constrain::interface_cell", mesh.num_cells);
+  Kokkos::parallel_scan(
+      "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &sum, bool final) {
+        if (!finder.visits(cell))
+          return;
+        if (final)
+          visited(sum) = cell;
+        ++sum;
+      },
+      count);
+  return visited;
+}
+
 /// Write the segments of the listed cells one after the other as far as there is room; returns their number.
 int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int num_visited, View<int *> const &first)
 {
@@ -364,14 +419,14 @@ int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int n
 
 } // namespace
 
-InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs,
-                                        NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
+InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
                                         BoundaryConditions const &conditions, Placement placement)
 {
   constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
-  SegmentFinder finder{mesh, pairs, regions, cellSurface(mesh, pairs, conditions), {}, placement};
+  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, {}, placement};
+  finder.filling = unset<int>("Harmos::constrain::filling", mesh.num_cells);
   int num_visited = 0;
-  View<int *> const visited = interfaceCells(finder.surface, dof_nodes, num_visited);
+  View<int *> const visited = interfaceCells(mesh, finder, num_visited);
   View<int *> const first = unset<int>("Harmos::constrain::first_segment", num_visited);
   InterfaceSegments result;
   finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", usual_segments * num_visited);

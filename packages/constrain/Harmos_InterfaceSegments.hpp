@@ -51,13 +51,9 @@ struct InterfaceSegments
 /// halves where `placement` wants two points. Cells of depth
 /// mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
 ///
-/// Nothing is written where no segment can meet another body: in cells with one material alone, and no contact wall,
-/// within two cells around them. (Free surfaces of body-fitted blocks are written all.)
-///
-/// Cost: six integers a cell and two a node are read, the rest follows the interfaces.
+/// Cost: five integers a cell are compared, the rest follows the interfaces.
 /// Throws std::runtime_error when a cell has more than max_cell_segments.
-InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs,
-                                        NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
+InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
                                         BoundaryConditions const &conditions, Placement placement);
 
 } // namespace Harmos
