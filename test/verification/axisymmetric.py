@@ -179,6 +179,17 @@ def test_rods_of_wilkins_and_guinan_have_the_measured_lengths():
         clean(r)
 
 
+def test_rods_of_johnson_and_cook_have_the_measured_lengths_with_constants_from_cylinder_impacts():
+    every = {shot["shot"]: shot for shot in shots.rows(EXAMPLE / "taylor_experiments/shots.csv")}
+    for name, wide in (("OFHC 130", 0.15), ("OFHC 190", 0.05)):  # the foot of the slow one: README of the scene
+        r = harmos("taylor_experiments/deck.yaml", {**shots.settings(every[name], "johnson-cook-cylinders", 8), **QUIET})
+        length, diameter, _ = shots.measure(r.directory)
+        print(f"  {name} m/s: {length:.2f} mm, {diameter:.2f} mm wide, measured {every[name]['final_length']} and {every[name]['final_diameter']}")
+        check(f"{name}, length", abs(length / float(every[name]["final_length"]) - 1.0), 0.02)
+        check(f"{name}, diameter", abs(diameter / float(every[name]["final_diameter"]) - 1.0), wide)
+        clean(r)
+
+
 def test_friction_narrows_the_foot_alike_on_a_wall_and_on_a_rigid_anvil():
     rod = {"mesh/x/cells": 18, "mesh/y/cells": 42, "bodies/rod/velocity": "[0.0, -130.0]", "run/end_time": 6.0e-5, **QUIET}
     h = 26.67e-3 / 42
