@@ -46,10 +46,11 @@ struct SlowLight
     int const own = dof_nodes.material(dof);
     if (own < 0 || materials(own).rigid_body >= 0)
       return false;
-    int const node = dof_nodes.node(dof);
-    double const volume = dof_mass(dof) / (density_range * light_node * materials(own).density0);
-    if (volume >= largest_cell)
+    double const mass_of_volume = density_range * light_node * materials(own).density0;
+    if (dof_mass(dof) >= largest_cell * mass_of_volume) // no division where none is light
       return false;
+    int const node = dof_nodes.node(dof);
+    double const volume = dof_mass(dof) / mass_of_volume;
     for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
     {
       if (volume < mesh.cell_volume(mesh.node_cell.item(i) / 4))
@@ -235,11 +236,20 @@ Crossing largestCrossing(SlowLight const &slow)
 
 double largestCellVolume(Mesh const &mesh)
 {
-  auto const volume = mesh.cell_volume;
+  double const *const volume = mesh.cell_volume.data();
+  int const count = mesh.num_cells;
   double largest = 0.0;
   Kokkos::parallel_reduce(
-      "Harmos::lagrange::largestCellVolume", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell, double &most) { most = Math::max(most, volume(cell)); }, Kokkos::Max<double>(largest));
+      "Harmos::lagrange::largestCellVolume", RangePolicy(0, numPacks(count)),
+      KOKKOS_LAMBDA(int block, double &most) {
+        int const first = block * pack_width;
+        bool const whole = first + pack_width <= count;
+        if (whole && !any(loadPack(volume + first) > Pack(most)))
+          return;
+        for (int cell = first; cell < count && cell < first + pack_width; ++cell)
+          most = Math::max(most, volume[cell]);
+      },
+      Kokkos::Max<double>(largest));
   return largest;
 }
 
