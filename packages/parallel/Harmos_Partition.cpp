@@ -14,7 +14,8 @@ namespace Harmos
 namespace
 {
 
-constexpr int many_groups = 10000; // a part: fewer cost METIS next to nothing
+constexpr int many_groups = 20000; // fewer cost METIS next to nothing
+constexpr int many_of_part = 8000; // a quarter of that balances still
 constexpr int few_parts = 8;       // recursive bisection is as fast, and cuts less
 constexpr int trials = 8;          // the least cut of so many is taken
 
@@ -120,7 +121,7 @@ std::vector<int> partitionCells(HostMesh const &mesh, int parts, std::vector<int
   HostRows const node_cell = cellsAroundNodes(mesh);
   Groups groups{std::vector<int>(num_cells), static_cast<int>(num_cells)};
   std::iota(groups.of_cell.begin(), groups.of_cell.end(), 0);
-  while (groups.count / parts > many_groups)
+  while (groups.count > many_groups && groups.count / parts > many_of_part)
   {
     Groups coarser = merged(node_cell, groups);
     if (coarser.count == groups.count)

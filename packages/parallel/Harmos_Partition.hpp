@@ -7,7 +7,9 @@
 namespace Harmos
 {
 
-/// Rank of each cell: METIS' multilevel k-way partition of the graph of cells that share a face.
+/// Rank of each cell: METIS' multilevel partition of the graph of cells that share a face, by recursive bisection up to
+/// eight parts, else k-way. Where cells are many, groups that meet at nodes stay together: on a
+/// grid blocks of 2 x 2, 4 x 4 and so on.
 ///
 /// \param parts   Number of ranks, 1 or more; more than there are cells leaves ranks empty.
 /// \param weight  Of each cell, >= 0; empty: all the same. Weights balance within 1% where the cells are many.

@@ -57,7 +57,7 @@ TEST(PartitionCells, gridOnTwoToEightRanks_balancesWithin5PercentWithShortCuts)
 
 TEST(PartitionCells, manyCells_areCutNearlyStraightIntoEqualParts)
 {
-  // 60000 cells: in groups where a part has more than 10000, cell by cell on 8 ranks
+  // so many that groups of them are partitioned
   HostMesh const mesh = grid(300, 200);
   int const shortest[] = {200, 400, 500};
   for (int const i : {0, 1, 2})
