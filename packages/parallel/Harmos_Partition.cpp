@@ -17,7 +17,7 @@ namespace
 constexpr int many_groups = 20000; // fewer cost METIS next to nothing
 constexpr int many_of_part = 8000; // a quarter of that balances still
 constexpr int few_parts = 8;       // recursive bisection is as fast, and cuts less
-constexpr int trials = 8;          // the least cut of so many is taken
+constexpr int trials = 16;         // the least cut of so many is taken
 
 /// Cells that stay on one rank together.
 struct Groups
