@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Axisymmetric runs: uniform axial motion, the cylindrical Noh problem, symmetry of a spherical blast, an impact about the
-axis on several ranks, failure, friction and bonds there, the copper Taylor rod against other codes, and what is refused.
+"""Axisymmetric runs: uniform axial motion, uniform expansion (in the plane too), the cylindrical Noh problem, symmetry of a
+spherical blast, an impact about the axis on several ranks, failure, friction and bonds there, the copper Taylor rod against
+other codes, and what is refused.
 """
 import math
 import pathlib
 import sys
 
 import h5py
+import numpy
 
 from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
 from harness import EXAMPLE, check, clean, harmos, read_columns, run
@@ -72,6 +74,25 @@ def test_sod_along_the_axis_is_sod_in_the_plane_in_every_column():
         check(f"{name}: density of the columns, apart", float(abs(density - density[:, :1]).max()), bound)
         check(f"{name}: density, apart from the planar one", float(abs(density - flat).max()), bound)
         clean(ring, plane)
+
+
+def test_cylinder_and_ball_of_cold_gas_expand_uniformly_beside_planes_of_symmetry():
+    """v = R / t0, no pressure: rho = (1 + t / t0)^-d in every cell, the surface at R (1 + t / t0). About the axis its first
+    two columns are left out: what flows between the axis and its neighbours takes the velocity half-way between them."""
+    for geometry, dimensions, first in (("planar", 2, 0.0), ("axisymmetric", 3, 0.05)):
+        r = harmos(DECKS / "expansion.yaml", {"geometry": geometry})
+        exact = 2.0**-dimensions
+        x, _, density, _ = last_fields(r)
+        inside = (numpy.hypot(x[:, 0], x[:, 1]) < 0.6) & (x[:, 0] > first)
+        with h5py.File(sorted(r.directory.glob("fields_*.h5"))[-1]) as file:
+            surface = numpy.hypot(*file["/interface/vertex"][:].reshape(-1, 2, 2).mean(axis=1).T)
+        beside = density[inside & (x.min(axis=1) < 0.02)] / exact
+        print(f"  {geometry}: density over the exact one {density[inside].min() / exact:.4f} to {density[inside].max() / exact:.4f}, beside planes "
+              f"of symmetry {beside.min():.4f} to {beside.max():.4f}; surface at {surface.min():.4f} to {surface.max():.4f}")
+        check("density", float(abs(density[inside] / exact - 1.0).max()), 0.02)
+        check("surface, cells off", float(abs(surface - 0.8).max()) / 0.02, 1.0)
+        check("mass", r.summary["mass_error"], 1e-13)
+        clean(r)
 
 
 def test_spherical_blast_stays_a_sphere_to_some_percent():

@@ -205,6 +205,7 @@ def test_leaving_the_range_is_a_warning_with_its_place():
     assert "cell " in words[0] and "material plate" in words[0], words
     assert words[0] in r.text
     clean(r)
+    torn["run__max_cycles"] = 40  # in the end the cell that the plate leaves behind is too thin for any range
     r, _, _ = plate("copper-johnson-cook.yaml", -2000.0, 2e-6, materials__metal__tension_limit=1.0e9, **torn)
     assert not r.summary["warnings"], r.summary["warnings"]
     clean(r)

@@ -40,8 +40,8 @@ struct EdgePair
 
 /// What the neighbours of a block's cells give: their faces' swept volumes and outgoing fluxes, column by column as in
 /// the window; zero where they do not count. Velocities one edge beyond the two nodes of each face, in a mixed
-/// neighbour too: its dof nodes go on beyond the rim of the body; those nodes' own where the material ends at the face:
-/// then the limited difference is zero.
+/// neighbour too: its dof nodes go on beyond the rim of the body; mirrored ones beyond a wall along which it slips;
+/// those nodes' own where else the material ends at the face: then the limited difference is zero.
 struct Neighbours
 {
   double const *face[4];
@@ -100,8 +100,11 @@ struct SweptGatherFunctor
       }
       bool const goes_beyond = same && stage.second_order;
       int const from = goes_beyond ? face >> 2 : cell;
+      bool const ends = !same && stage.second_order && stage.face_neighbour(cell, k) < 0;
       for (int i = 0; i < 2; ++i)
       {
+        if (ends && mirrorBeyond(cell, k, i, lane, gathered))
+          continue;
         double const *velocity = stage.at(velocityColumn(face, k, i, goes_beyond), from);
         gathered[num_face_columns + 2 * i][lane] = velocity[0];
         gathered[num_face_columns + 2 * i + 1][lane] = velocity[column_stride];
@@ -119,6 +122,34 @@ struct SweptGatherFunctor
       if (stage.pair_material[pair] == stage.pure_material[cell])
         return pair;
     return -1;
+  }
+
+  /// Beyond a wall at rest along which the node k + i of face k slips: the velocity of the node behind it, mirrored, so
+  /// that what grows from zero away from the wall keeps its slope there. \return false: no such wall, or the axis,
+  /// where corners have no equal shares.
+  KOKKOS_INLINE_FUNCTION bool mirrorBeyond(int cell, int k, int i, int lane, GatheredFace &gathered) const
+  {
+    int const a = stage.cell_node(cell, k), b = stage.cell_node(cell, (k + 1) & 3);
+    int const condition = stage.node_condition[i == 0 ? a : b];
+    if (condition < 0 ||
+        (stage.geometry == Geometry::Axisymmetric && stage.position(a, 0) == 0.0 && stage.position(b, 0) == 0.0))
+      return false;
+    Vector2 const along =
+        normalised(Vector2{stage.position(b, 0) - stage.position(a, 0), stage.position(b, 1) - stage.position(a, 1)});
+    Vector2 const normal{along[1], -along[0]};
+    NodeCondition const &wall = stage.condition[condition];
+    bool slips = false;
+    for (int j = 0; j < wall.count; ++j)
+      slips = slips || (wall.value[j] == 0.0 && Math::fabs(cross(wall.normal[j], normal)) < 1e-12);
+    if (!slips)
+      return false;
+    int const inner = i == 0 ? (k + 3) & 3 : (k + 2) & 3;
+    double const *velocity = stage.at(CornerColumn + 2 * inner, cell);
+    Vector2 const v{velocity[0], velocity[column_stride]};
+    Vector2 const mirrored = v - (2.0 * dot(v, normal)) * normal;
+    gathered[num_face_columns + 2 * i][lane] = mirrored[0];
+    gathered[num_face_columns + 2 * i + 1][lane] = mirrored[1];
+    return true;
   }
 
   KOKKOS_INLINE_FUNCTION void gatherMixed(int pair, int face, int lane, GatheredFace &gathered) const

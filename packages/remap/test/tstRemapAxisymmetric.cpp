@@ -129,6 +129,31 @@ TEST(RemapAxisymmetric, EdgesThatCrossNextToANodeAlmostAtRest_leaveFiniteFields)
   }
 }
 
+TEST(RemapAxisymmetric, UniformExpansionFromWalls_keepsItsForm)
+{
+  // v = c x becomes v = c x / (1 + c dt) in every node, those next to walls too; about the axis along it alone.
+  double const c = 0.01;
+  for (bool const ring : {false, true})
+  {
+    Scene scene(10, 10, 0.0, twoLaws());
+    if (ring)
+      scene.aboutAxis();
+    scene.paint({rest(0)}, one, one);
+    scene.move([&](int, Vector2 const &x) { return ring ? Vector2{0.0, c * x[1]} : c * x; });
+    RemapResult const result = scene.remapped();
+    double worst = 0.0;
+    for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
+      for (int d = ring ? 1 : 0; d < 2; ++d)
+      {
+        int const node = result.dof_nodes.node(dof);
+        Vector2 const x{scene.mesh.node_position(node, 0), scene.mesh.node_position(node, 1)};
+        if (x[0] < 0.75 && x[1] < 0.75 && x[d] > 0.05)
+          worst = std::max(worst, std::fabs(result.state.velocity(dof, d) / (c / (1.0 + c) * x[d]) - 1.0));
+      }
+    EXPECT_LT(worst, 2.0 * c * c) << (ring ? "about the axis" : "in the plane");
+  }
+}
+
 TEST(RemapAxisymmetric, TwoMaterialsInAnyMotion_keepMassEnergyAndAxialMomentum)
 {
   for (int const variant : {0, 1, 2, 3})
