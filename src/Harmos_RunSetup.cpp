@@ -2,6 +2,7 @@
 #include "Harmos_Run.hpp"
 
 #include "Harmos_PrescribedCycle.hpp"
+#include "Harmos_TargetMesh.hpp"
 
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_MeshBuilder.hpp>
@@ -221,32 +222,22 @@ std::string firstCause(Teuchos::Comm<int> const &comm, std::string cause)
 namespace
 {
 
-/// Splinters of interfaces were seen to jump from end to end of cells beyond this.
-constexpr double longest_cells = 4.0;
-
-/// Largest length over width of a cell; 1 in strips of one cell, where no interface is oblique.
-double longestCell(Deck const &deck)
-{
-  auto const largest = [](AxisSpec const &axis)
-  { return std::max(axis.position(1) - axis.from, axis.to - axis.position(axis.cells - 1)); };
-  if (deck.x.cells == 1 || deck.y.cells == 1)
-    return 1.0;
-  return std::max(largest(deck.x) / deck.y.smallestCell(), largest(deck.y) / deck.x.smallestCell());
-}
-
+/// Splinters of interfaces were seen to jump from end to end of cells longer than those that several ranks allow. In
+/// strips of one cell no interface is oblique.
 void warnOfLongCells(Run &run)
 {
   Deck const &deck = run.deck;
-  if (deck.kinematics != Kinematics::Xfem || deck.fields.size() < 2 || run.scene.prescribed.kind != FieldKind::None)
+  if (deck.kinematics != Kinematics::Xfem || deck.fields.size() < 2 || run.scene.prescribed.kind != FieldKind::None ||
+      deck.x.cells == 1 || deck.y.cells == 1)
     return;
-  double const ratio = longestCell(deck);
-  if (!(ratio > longest_cells * (1.0 + 1e-9)))
+  double const aspect = run.exchange->max(largestAspectRatio(run.scene.mesh));
+  if (!(aspect > largest_shared_aspect))
     return;
   char text[200];
   std::snprintf(text, sizeof text,
-                "mesh: cells are up to %.3g times as long as wide; beyond %.0f splinters of the bodies' interfaces may "
+                "mesh: cells are up to %.3g times as long as wide; beyond 4 splinters of the bodies' interfaces may "
                 "jump over them, and contact is rough",
-                ratio, longest_cells);
+                aspect + std::sqrt(aspect * aspect - 1.0)); // (r + 1/r)/2 = aspect
   warn(run, text);
 }
 
