@@ -162,9 +162,10 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     {
       PhaseTimer timer("constrain", times.constrain);
       s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, dt);
+      work.half = work.constrained;
       report.constraint = constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass,
                                               s.state.velocity, work.predicted, work.half, bodies_n, s.bodies, dt,
-                                              stress, s.bonds, scene.constraint, exchange, s.force);
+                                              stress, s.bonds, scene.constraint, exchange, s.force, &s.interface_cells);
     }
     // What moves with its mesh outruns no neighbourhood: only the sheared and thinned cells of the reference would pay.
     if (scene.kinematics == Kinematics::Lagrangian)

@@ -58,9 +58,10 @@ struct CycleState
   CellMaterialPairs pairs;
   NodeMaterialPairs dof_nodes;
   PairState state;
-  FilledRegions regions; // of this state
-  LagrangeWork work;     // scratch, kept from cycle to cycle
-  RemapWork remap_work;  // the same
+  FilledRegions regions;          // of this state
+  LagrangeWork work;              // scratch, kept from cycle to cycle
+  RemapWork remap_work;           // the same
+  InterfaceCells interface_cells; // the same
   std::vector<RigidBody> bodies;
   RigidRows rigid_rows;              // what the bodies fill at
   std::vector<RigidBody> rigid_pose; // these poses

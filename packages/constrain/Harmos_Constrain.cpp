@@ -89,7 +89,7 @@ bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions co
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
-                            Motion const &before, double dt)
+                            Motion const &before, double dt, InterfaceCells *kept)
 {
   if (options.method == ConstraintMethod::Nodal || options.method == ConstraintMethod::Merged)
   {
@@ -101,7 +101,7 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   }
   InterfaceSegments segments;
   if (!nothingToSeparate(dof_nodes, conditions))
-    segments = findInterfaceSegments(mesh, pairs, regions, conditions, options.placement);
+    segments = findInterfaceSegments(mesh, pairs, regions, conditions, options.placement, kept);
   double const largest = exchange.max(largestSegment(mesh, segments));
   if (largest == 0.0)
     return {};
@@ -119,10 +119,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                      BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                      View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
-                                     View<double *[2]> const &half, std::vector<RigidBody> const &bodies_n,
+                                     View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                                     Exchange const &exchange, std::vector<ContactForce> const &last)
+                                     Exchange const &exchange, std::vector<ContactForce> const &last,
+                                     InterfaceCells *kept)
 {
   ScopedRegion const region("Harmos::constrain");
   if (!(dt > 0.0))
@@ -138,11 +139,14 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   BodyTable const table = buildBodyTable(bodies, num_materials);
   BodyTable const table_n = withBodies(table, bodies_n);
   ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
-                                           {velocity_n, table_n}, dt);
+                                           {velocity_n, table_n}, dt, kept);
   report.rows = rows.num_multipliers;
   if (rows.num_multipliers == 0)
   {
-    writeHalf(mesh, dof_nodes, predicted, table, half);
+    if (bodies.empty())
+      half = predicted;
+    else
+      writeHalf(mesh, dof_nodes, predicted, table, half);
     return report;
   }
   ContactSystem const system =

@@ -7,6 +7,7 @@
 #include <Harmos_ConstraintOptions.hpp>
 #include <Harmos_Exchange.hpp>
 #include <Harmos_FilledRegions.hpp>
+#include <Harmos_InterfaceSegments.hpp>
 #include <Harmos_RigidBody.hpp>
 
 #include <algorithm>
@@ -89,13 +90,15 @@ struct ConstraintReport
 /// \param predicted  v*, with node conditions applied [m/s]
 /// \param half       Out: v^{n+1/2} of all dof nodes; dof nodes of rigid materials get their body's velocity at the
 /// node.
-///                   Right at all nodes of cells of depth <= 3.
+///                   Right at all nodes of cells of depth <= 3. Without contact and rigid bodies it becomes the same
+///                   array as `predicted`.
 /// \param bodies_n   Rigid bodies with the velocities before the cycle.
 /// \param bodies     In: predicted velocities. Out: v^{n+1/2}. Poses are not changed.
 /// \param dt         Of the cycle [s]
 /// \param pair_stress num_pairs: Cauchy stress xx, yy, xy [Pa]; Nitsche's method alone reads it
 /// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
 /// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.
+/// \param kept Cells with interfaces, from cycle to cycle.
 /// \return Sums over all ranks. `converged` is false where the tolerance was not reached: the velocities are then those
 /// of
 ///         the last iterate, which conserves momentum all the same.
@@ -105,10 +108,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                      BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                      View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
-                                     View<double *[2]> const &half, std::vector<RigidBody> const &bodies_n,
+                                     View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                                     Exchange const &exchange, std::vector<ContactForce> const &last = {});
+                                     Exchange const &exchange, std::vector<ContactForce> const &last = {},
+                                     InterfaceCells *kept = nullptr);
 
 /// The bonds of a scene at its start: one for each slave cell and pair of materials whose bond can break, where they
 /// touch. In the order of the global cells, the same on all ranks. Collective.

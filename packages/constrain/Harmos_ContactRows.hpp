@@ -91,7 +91,7 @@ ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
-                            Motion const &before = {}, double dt = 0.0);
+                            Motion const &before = {}, double dt = 0.0, InterfaceCells *kept = nullptr);
 
 /// Give every rank the rows of its halo to depth row_halo. With one rank: nothing.
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,

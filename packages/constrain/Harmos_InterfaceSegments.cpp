@@ -381,25 +381,40 @@ View<T *> unset(char const *label, int size)
   return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
 }
 
-/// The cells that may carry segments, ascending.
-View<int *> interfaceCells(Mesh const &mesh, SegmentFinder const &finder, int &count)
+/// List the cells that may carry segments.
+void listInterfaceCells(Mesh const &mesh, SegmentFinder &finder, InterfaceCells &cells)
 {
-  View<int *> const filling = finder.filling;
+  bool const same = cells.count >= 0 && cells.pairs.offset.data() == finder.pairs.offset.data() &&
+                    cells.pairs.material.data() == finder.pairs.material.data() &&
+                    cells.pairs.cell_kind.data() == finder.pairs.cell_kind.data() &&
+                    cells.face_neighbour.data() == mesh.face_neighbour.data() &&
+                    cells.boundary.data() == finder.boundary.data();
+  if (!same)
+  {
+    cells.pairs = finder.pairs;
+    cells.face_neighbour = mesh.face_neighbour;
+    cells.boundary = finder.boundary;
+    cells.filling = unset<int>("Harmos::constrain::filling", mesh.num_cells);
+    cells.cell = unset<int>("Harmos::constrain::interface_cell", mesh.num_cells);
+  }
+  finder.filling = cells.filling;
+  if (same)
+    return;
+  View<int *> const filling = cells.filling, visited = cells.cell;
+  SegmentFinder const f = finder;
   Kokkos::parallel_for(
       "Harmos::constrain::fillings", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell) { filling(cell) = finder.fillingOf(cell); });
-  View<int *> const visited = unset<int>("Harmos::constrain::interface_cell", mesh.num_cells);
+      KOKKOS_LAMBDA(int cell) { filling(cell) = f.fillingOf(cell); });
   Kokkos::parallel_scan(
       "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells),
       KOKKOS_LAMBDA(int cell, int &sum, bool final) {
-        if (!finder.visits(cell))
+        if (!f.visits(cell))
           return;
         if (final)
           visited(sum) = cell;
         ++sum;
       },
-      count);
-  return visited;
+      cells.count);
 }
 
 /// Write the segments of the listed cells one after the other as far as there is room; returns their number.
@@ -420,13 +435,17 @@ int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int n
 } // namespace
 
 InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                                        BoundaryConditions const &conditions, Placement placement)
+                                        BoundaryConditions const &conditions, Placement placement, InterfaceCells *kept)
 {
   constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
   SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, {}, placement};
-  finder.filling = unset<int>("Harmos::constrain::filling", mesh.num_cells);
-  int num_visited = 0;
-  View<int *> const visited = interfaceCells(mesh, finder, num_visited);
+  InterfaceCells own;
+  InterfaceCells &cells = kept != nullptr ? *kept : own;
+  listInterfaceCells(mesh, finder, cells);
+  if (cells.count == 0)
+    return {};
+  int const num_visited = cells.count;
+  View<int *> const visited = cells.cell;
   View<int *> const first = unset<int>("Harmos::constrain::first_segment", num_visited);
   InterfaceSegments result;
   finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", usual_segments * num_visited);

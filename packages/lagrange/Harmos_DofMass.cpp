@@ -15,6 +15,16 @@ void grow(ViewType &view, char const *label, int count)
     view = ViewType(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), count + count / 8);
 }
 
+double largestCellVolume(Mesh const &mesh)
+{
+  auto const volume = mesh.cell_volume;
+  double largest = 0.0;
+  Kokkos::parallel_reduce(
+      "Harmos::lagrange::largestCellVolume", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, double &most) { most = Math::max(most, volume(cell)); }, Kokkos::Max<double>(largest));
+  return largest;
+}
+
 } // namespace
 
 void prepareWork(CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes, LagrangeWork &work)
@@ -22,11 +32,13 @@ void prepareWork(CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_no
   grow(work.corner_force, "Harmos::lagrange::corner_force", pairs.num_pairs);
   grow(work.dof_mass, "Harmos::lagrange::dof_mass", dof_nodes.num_dof_nodes);
   grow(work.predicted, "Harmos::lagrange::predicted", dof_nodes.num_dof_nodes);
-  grow(work.half, "Harmos::lagrange::half", dof_nodes.num_dof_nodes);
+  grow(work.constrained, "Harmos::lagrange::constrained", dof_nodes.num_dof_nodes);
+  work.half = work.constrained;
 }
 
 void computeNodeAltitudes(Mesh const &mesh, LagrangeWork &work)
 {
+  work.largest_cell = largestCellVolume(mesh);
   grow(work.node_altitude, "Harmos::lagrange::node_altitude", mesh.num_nodes);
   auto const node_altitude = work.node_altitude;
   Kokkos::parallel_for(

@@ -38,8 +38,10 @@ struct LagrangeWork
   View<double *[8]> corner_force; // num_pairs: fx, fy of corners 0..3, time level n [N/m]
   View<double *> dof_mass;        // num_dof_nodes [kg/m]
   View<double *[2]> predicted;    // num_dof_nodes: v* = v^{n-1/2} + dt a^n, node conditions applied
-  View<double *[2]> half;         // num_dof_nodes: v^{n+1/2}, after the constraints
+  View<double *[2]> half;         // num_dof_nodes: v^{n+1/2}, after the constraints; `constrained`, or `predicted`
+  View<double *[2]> constrained;  // itself where nothing has changed that
   View<double *> node_altitude;   // num_nodes: least altitude of the cells around [length]
+  double largest_cell = 0.0;      // volume; with the altitudes
   CutGradients cut;               // of this time's filled regions; empty: no cut cell is told from a pure one
   View<double *[2]> before;       // num_pairs, BeforeField: what failPairs needs of time n
 };
@@ -121,7 +123,8 @@ using MaterialSums = Kokkos::View<double **, Kokkos::LayoutRight, Kokkos::HostSp
 /// Size the work arrays for a set of pairs and dof nodes; grows only, contents are lost where it grows.
 void prepareWork(CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes, LagrangeWork &work);
 
-/// Least altitude of the cells around each node -> work.node_altitude; once, and whenever the nodes have moved.
+/// Least altitude of the cells around each node -> work.node_altitude, and the largest volume of a cell ->
+/// work.largest_cell; once, and whenever the nodes have moved.
 void computeNodeAltitudes(Mesh const &mesh, LagrangeWork &work);
 
 /// Lumped mass of the dof nodes: each deformable pair's mass goes to its four by mesh.corner_share (planar a quarter,

@@ -234,25 +234,6 @@ Crossing largestCrossing(SlowLight const &slow)
   return result;
 }
 
-double largestCellVolume(Mesh const &mesh)
-{
-  double const *const volume = mesh.cell_volume.data();
-  int const count = mesh.num_cells;
-  double largest = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::lagrange::largestCellVolume", RangePolicy(0, numPacks(count)),
-      KOKKOS_LAMBDA(int block, double &most) {
-        int const first = block * pack_width;
-        bool const whole = first + pack_width <= count;
-        if (whole && !any(loadPack(volume + first) > Pack(most)))
-          return;
-        for (int cell = first; cell < count && cell < first + pack_width; ++cell)
-          most = Math::max(most, volume[cell]);
-      },
-      Kokkos::Max<double>(largest));
-  return largest;
-}
-
 struct SlowSums : TravelReport
 {
   KOKKOS_INLINE_FUNCTION void join(SlowSums const &other)
@@ -328,7 +309,7 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
   TravelReport report;
   SlowLight slow{mesh,          pairs,     dof_nodes,          materials, boundary, state.record,
                  work.dof_mass, work.half, work.node_altitude, {},        dt,       options.light_node};
-  slow.largest_cell = largestCellVolume(mesh);
+  slow.largest_cell = work.largest_cell;
   Crossing const crossing = largestCrossing(slow);
   if (crossing.light == 0)
   {

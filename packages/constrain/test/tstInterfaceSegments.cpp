@@ -57,6 +57,31 @@ TEST(InterfaceSegments, interfaceOnFaces_pureCellsExposeWholeFaces)
   }
 }
 
+// Cells are found once for the same arrays; who changes what a cell holds makes new ones.
+TEST(InterfaceSegments, keptCells_giveTheSameSegmentsUntilKindsComeInANewArray)
+{
+  TinyScene scene(rectilinearMesh(uniform(4, 4), uniform(2, 2)), {boxBody(0, 0, 0, 2, 2), boxBody(1, 2, 0, 4, 2)}, 2,
+                  open_box);
+  InterfaceCells kept;
+  auto const find = [&](InterfaceCells *cells)
+  {
+    return findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint, cells)
+        .count;
+  };
+  EXPECT_EQ(find(&kept), 4);
+  int const *const listed = kept.cell.data();
+  EXPECT_EQ(find(&kept), 4);
+  EXPECT_EQ(kept.cell.data(), listed);
+
+  // Void in cell 5, of the first material beside the interface.
+  View<int *> const kind("kind", scene.mesh.num_cells);
+  Kokkos::deep_copy(kind, scene.pairs.cell_kind);
+  Kokkos::deep_copy(Kokkos::subview(kind, 5), static_cast<int>(VoidCell));
+  scene.pairs.cell_kind = kind;
+  EXPECT_EQ(find(&kept), find(nullptr));
+  EXPECT_NE(find(&kept), 4);
+}
+
 // Right cell is cut at y = 0.25 into material 0 below and 1 above; left cell is all 0: it exposes the upper three
 // quarters.
 TEST(InterfaceSegments, pureCellBesideMixedCell_exposesWhatItsMaterialDoesNotCover)
