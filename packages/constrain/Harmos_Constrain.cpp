@@ -101,7 +101,7 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   }
   InterfaceSegments segments;
   if (!nothingToSeparate(dof_nodes, conditions))
-    segments = findInterfaceSegments(mesh, pairs, regions, conditions, options.placement, kept);
+    segments = findInterfaceSegments(mesh, pairs, dof_nodes, regions, conditions, options.placement, kept);
   double const largest = exchange.max(largestSegment(mesh, segments));
   if (largest == 0.0)
     return {};

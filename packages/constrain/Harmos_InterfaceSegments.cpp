@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_InterfaceCells.hpp>
 #include <Harmos_InterfaceSegments.hpp>
 
 #include <stdexcept>
@@ -179,50 +180,15 @@ KOKKOS_INLINE_FUNCTION PiecePoints piecePoints(Placement placement, bool free)
   return {two ? 2 : 1, gauss_point};
 }
 
-// What fills a cell: the material of a pure one, else one of these.
-constexpr int void_filling = -1;
-constexpr int mixed_filling = -2;
-
 /// Writes the segments of single cells.
 struct SegmentFinder
 {
   Mesh mesh;
   CellMaterialPairs pairs;
   FilledRegions regions;
-  View<Boundary *> boundary;
-  View<int *> filling;
+  CellSurface surface;
   View<InterfaceSegment *> segment;
   Placement placement;
-
-  KOKKOS_INLINE_FUNCTION bool contactWall(int cell, int face) const
-  {
-    int const b = mesh.face_boundary(cell, face);
-    return b >= 0 && boundary(b).kind == BoundaryKind::ContactWall;
-  }
-
-  KOKKOS_INLINE_FUNCTION int fillingOf(int cell) const
-  {
-    int const kind = pairs.cell_kind(cell);
-    return kind == PureCell ? pairs.material(pairs.offset(cell)) : kind == VoidCell ? void_filling : mixed_filling;
-  }
-
-  /// False where no segment can lie: a pure cell among its like, void away from contact walls.
-  KOKKOS_INLINE_FUNCTION bool visits(int cell) const
-  {
-    if (mesh.halo > 0 && mesh.cell_depth(cell) >= mesh.halo)
-      return false;
-    int const own = filling(cell);
-    if (own == mixed_filling)
-      return true;
-    for (int k = 0; k < 4; ++k)
-    {
-      int const across = mesh.face_neighbour(cell, k);
-      if (across >= 0 ? own >= 0 && filling(across / 4) != own
-                      : contactWall(cell, k) || (own >= 0 && mesh.face_boundary(cell, k) < 0))
-        return true;
-    }
-    return false;
-  }
 
   KOKKOS_INLINE_FUNCTION void coverBy(int cell, int except, Edge const &edge, double tolerance,
                                       EdgeCovers &covers) const
@@ -256,10 +222,10 @@ struct SegmentFinder
     int const across = face < 0 ? -1 : mesh.face_neighbour(cell, face);
     bool const outer = face >= 0 && across < 0;
     bool const free = outer && mesh.face_boundary(cell, face) < 0;
-    if (outer ? !free && !contactWall(cell, face) : across >= 0 && filling(across / 4) == material)
+    if (outer ? !free && !surface.contactWall(cell, face) : across >= 0 && surface.filling(across / 4) == material)
       return 0;
     EdgePieces pieces;
-    if (outer || (across >= 0 && filling(across / 4) != mixed_filling))
+    if (outer || (across >= 0 && surface.filling(across / 4) != mixed_filling))
       wholeEdge(edge.length, pieces);
     else
     {
@@ -323,7 +289,7 @@ struct SegmentFinder
   {
     int const cell = blank.cell, begin = pairs.offset(cell);
     int count = 0;
-    if (filling(cell) >= 0)
+    if (surface.filling(cell) >= 0)
     {
       for (int k = 0; k < 4; ++k)
         if (frame.face[k].length > frame.tolerance)
@@ -352,7 +318,7 @@ struct SegmentFinder
     int count = regionSegments(frame, blank, first);
     for (int k = 0; k < 4; ++k)
     {
-      if (!contactWall(cell, k))
+      if (!surface.contactWall(cell, k))
         continue;
       if (first + count < static_cast<int>(segment.extent(0)))
       {
@@ -381,42 +347,6 @@ View<T *> unset(char const *label, int size)
   return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
 }
 
-/// List the cells that may carry segments.
-void listInterfaceCells(Mesh const &mesh, SegmentFinder &finder, InterfaceCells &cells)
-{
-  bool const same = cells.count >= 0 && cells.pairs.offset.data() == finder.pairs.offset.data() &&
-                    cells.pairs.material.data() == finder.pairs.material.data() &&
-                    cells.pairs.cell_kind.data() == finder.pairs.cell_kind.data() &&
-                    cells.face_neighbour.data() == mesh.face_neighbour.data() &&
-                    cells.boundary.data() == finder.boundary.data();
-  if (!same)
-  {
-    cells.pairs = finder.pairs;
-    cells.face_neighbour = mesh.face_neighbour;
-    cells.boundary = finder.boundary;
-    cells.filling = unset<int>("Harmos::constrain::filling", mesh.num_cells);
-    cells.cell = unset<int>("Harmos::constrain::interface_cell", mesh.num_cells);
-  }
-  finder.filling = cells.filling;
-  if (same)
-    return;
-  View<int *> const filling = cells.filling, visited = cells.cell;
-  SegmentFinder const f = finder;
-  Kokkos::parallel_for(
-      "Harmos::constrain::fillings", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell) { filling(cell) = f.fillingOf(cell); });
-  Kokkos::parallel_scan(
-      "Harmos::constrain::listInterfaceCells", RangePolicy(0, mesh.num_cells),
-      KOKKOS_LAMBDA(int cell, int &sum, bool final) {
-        if (!f.visits(cell))
-          return;
-        if (final)
-          visited(sum) = cell;
-        ++sum;
-      },
-      cells.count);
-}
-
 /// Write the segments of the listed cells one after the other as far as there is room; returns their number.
 int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int num_visited, View<int *> const &first)
 {
@@ -434,14 +364,15 @@ int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int n
 
 } // namespace
 
-InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                        NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                         BoundaryConditions const &conditions, Placement placement, InterfaceCells *kept)
 {
   constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
-  SegmentFinder finder{mesh, pairs, regions, conditions.boundary, {}, {}, placement};
+  SegmentFinder finder{mesh, pairs, regions, cellSurface(mesh, pairs, conditions), {}, placement};
   InterfaceCells own;
   InterfaceCells &cells = kept != nullptr ? *kept : own;
-  listInterfaceCells(mesh, finder, cells);
+  listInterfaceCells(finder.surface, dof_nodes, cells);
   if (cells.count == 0)
     return {};
   int const num_visited = cells.count;

@@ -5,6 +5,7 @@
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_ConstraintOptions.hpp>
 #include <Harmos_FilledRegions.hpp>
+#include <Harmos_InterfaceCells.hpp>
 
 namespace Harmos
 {
@@ -42,18 +43,6 @@ struct InterfaceSegments
   View<InterfaceSegment *> segment; // count, and some room
 };
 
-/// The cells where segments can lie: kept as long as the pairs, and the mesh's neighbours and boundaries, are the same
-/// arrays (who changes what a cell holds makes new ones), so that no cell is looked at in cycles without changes.
-struct InterfaceCells
-{
-  CellMaterialPairs pairs; // what they were found for
-  View<int *[4]> face_neighbour;
-  View<Boundary *> boundary;
-  int count = -1;
-  View<int *> cell;    // ascending
-  View<int *> filling; // of all cells: the material of pure ones, or what else they hold
-};
-
 /// The boundaries of the filled regions: interface edges inside mixed cells, and the exposed parts of cell faces, which
 /// are the parts of a region's edge on a face that the same material's region does not cover across the face.
 ///
@@ -63,9 +52,13 @@ struct InterfaceCells
 /// halves where `placement` wants two points. Cells of depth
 /// mesh.halo (halo > 0) carry nothing: what lies beyond them is unknown.
 ///
-/// Cost: five integers a cell are compared, unless `kept` has the cells already; the rest follows the interfaces.
-/// Throws std::runtime_error when a cell has more than max_cell_segments.
-InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+/// Nothing is written where no segment can meet another body: in cells with one material alone, and no contact wall,
+/// within two cells around them. (Free surfaces of body-fitted blocks are written all.)
+///
+/// Cost: six integers a cell and two a node are read, unless `kept` has the cells already; the rest follows the
+/// interfaces. Throws std::runtime_error when a cell has more than max_cell_segments.
+InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                        NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                         BoundaryConditions const &conditions, Placement placement,
                                         InterfaceCells *kept = nullptr);
 

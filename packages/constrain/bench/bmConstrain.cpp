@@ -47,14 +47,15 @@ void segments(benchmark::State &state)
 {
   TinyScene const scene = oblique(static_cast<int>(state.range(0)));
   for (auto _ : state)
-    findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
+    findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions,
+                          Placement::Midpoint);
 }
 
 void rows(benchmark::State &state)
 {
   TinyScene const scene = oblique(static_cast<int>(state.range(0)));
-  InterfaceSegments const s =
-      findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
+                                                    scene.conditions, Placement::Midpoint);
   BodyTable const bodies = buildBodyTable({}, 2);
   for (auto _ : state)
   {

@@ -15,8 +15,8 @@ namespace
 /// \param dt The step, in which ends of segments may go through what they face; 0: none do.
 std::vector<ContactRow> rowsOf(TinyScene const &scene, double dt = 0.0)
 {
-  InterfaceSegments const s =
-      findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
+                                                    scene.conditions, Placement::Midpoint);
   SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
   BodyTable const bodies = buildBodyTable({}, static_cast<int>(scene.options.interaction.extent(0)));
   ContactRows const rows =

@@ -13,16 +13,16 @@ namespace
 
 std::vector<InterfaceSegment> segmentsOf(TinyScene const &scene)
 {
-  InterfaceSegments const s =
-      findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
+                                                    scene.conditions, Placement::Midpoint);
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.segment);
   return std::vector<InterfaceSegment>(host.data(), host.data() + s.count);
 }
 
 std::vector<RayHit> hitsOf(TinyScene const &scene)
 {
-  InterfaceSegments const s =
-      findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint);
+  InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
+                                                    scene.conditions, Placement::Midpoint);
   auto const hit = castRays(scene.mesh, s, binSegments(s, largestSegment(scene.mesh, s)));
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hit);
   return std::vector<RayHit>(host.data(), host.data() + s.count);
@@ -65,7 +65,8 @@ TEST(InterfaceSegments, keptCells_giveTheSameSegmentsUntilKindsComeInANewArray)
   InterfaceCells kept;
   auto const find = [&](InterfaceCells *cells)
   {
-    return findInterfaceSegments(scene.mesh, scene.pairs, scene.regions, scene.conditions, Placement::Midpoint, cells)
+    return findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions,
+                                 Placement::Midpoint, cells)
         .count;
   };
   EXPECT_EQ(find(&kept), 4);
@@ -153,6 +154,35 @@ TEST(InterfaceSegments, contactWall_isASegmentThatFacesIntoTheDomain)
   }
   EXPECT_EQ(walls, 2);
   EXPECT_EQ(facing, 2);
+}
+
+// Cells four times as high as wide: two plates face each other over 3 wherever the gap is less than a cell's size, 0.5,
+// which is two cells. A third one far away meets nothing and carries no segment.
+TEST(InterfaceSegments, thoseOfCellsFarFromOthers_areLeftOutAndAllThatFacesRemains)
+{
+  for (double const start : {3.0, 3.1, 3.2})
+    for (double const gap : {0.0, 1e-4, 0.1, 0.3, 0.49})
+    {
+      TinyScene const scene(
+          rectilinearMesh(uniform(12.0, 48), uniform(4.0, 4)),
+          {boxBody(0, 1.0, 0.5, start, 3.5), boxBody(1, start + gap, 0.5, 6.1, 3.5), boxBody(2, 8.4, 0.5, 10.3, 3.5)},
+          3, open_box);
+      auto const s = segmentsOf(scene);
+      auto const hit = hitsOf(scene);
+      double facing[2] = {0.0, 0.0};
+      for (std::size_t i = 0; i < s.size(); ++i)
+      {
+        ASSERT_NE(s[i].material, 2);
+        EXPECT_NEAR(s[i].midpoint[0], start, 1.0);
+        if (hit[i].segment >= 0)
+        {
+          EXPECT_NEAR(hit[i].gap, gap, 1e-13);
+          facing[s[i].material] += s[i].length;
+        }
+      }
+      EXPECT_NEAR(facing[0], 3.0, 1e-12) << "start " << start << " gap " << gap;
+      EXPECT_NEAR(facing[1], 3.0, 1e-12) << "start " << start << " gap " << gap;
+    }
 }
 
 TEST(RayCast, gapAcrossCells_isMeasuredAndBeyondOneCellNothingIsFound)
