@@ -61,21 +61,37 @@ struct SegmentBins
     return (bits & ~materialBit(material)) != 0;
   }
 
-  /// visit(place, item(place)) for every segment in the bins that meet the box low..high.
+  /// visit(begin, end) for places of items that lie side by side and in the bins that meet the box low..high: all such.
   template <class Visitor>
-  KOKKOS_INLINE_FUNCTION void forEach(Vector2 const &low, Vector2 const &high, Visitor const &visit) const
+  KOKKOS_INLINE_FUNCTION void forEachRun(Vector2 const &low, Vector2 const &high, Visitor const &visit) const
   {
     Range const r = range(low, high);
     if (r.east < r.west)
       return;
     for (int row = r.south; row <= r.north; ++row)
     {
-      // The bins of a row of the grid lie side by side.
-      for (int column = r.west; column <= r.east; column = hashed ? column + 1 : r.east + 1)
-        for (int i = offset(bucket(column, row)); i < offset(bucket(hashed ? column : r.east, row) + 1); ++i)
-          if (!hashed || (item(i).column == column && item(i).row == row))
-            visit(i, item(i));
+      if (!hashed) // the bins of a row of the grid lie side by side
+      {
+        visit(offset(bucket(r.west, row)), offset(bucket(r.east, row) + 1));
+        continue;
+      }
+      for (int column = r.west; column <= r.east; ++column)
+        for (int i = offset(bucket(column, row)); i < offset(bucket(column, row) + 1); ++i)
+          if (item(i).column == column && item(i).row == row)
+            visit(i, i + 1);
     }
+  }
+
+  /// visit(place, item(place)) for every segment in the bins that meet the box low..high.
+  template <class Visitor>
+  KOKKOS_INLINE_FUNCTION void forEach(Vector2 const &low, Vector2 const &high, Visitor const &visit) const
+  {
+    forEachRun(low, high,
+               [&](int begin, int end)
+               {
+                 for (int i = begin; i < end; ++i)
+                   visit(i, item(i));
+               });
   }
 
 private:
