@@ -36,12 +36,27 @@ BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodie
 namespace
 {
 
+/// What a fit reads of a facing segment, in columns; lengths in the mesh's unit.
+enum FacingColumn : int
+{
+  FacingX,
+  FacingY,
+  FacingNormalX,
+  FacingNormalY,
+  FacingLength,
+  FacingGap,
+  FacingCellX,
+  FacingCellY,
+  FacingMaterial, // exact integers
+  FacedMaterial,  // of what it faces
+  num_facing_columns
+};
+
 /// The segments whose normals may serve a fit: those that face another one, near enough to parallel.
 struct FacingSegments
 {
-  SegmentBins bins;   // of these alone
-  View<RayHit *> hit; // of all segments
-  View<int *> faced;  // materials of what they face, in the order of the bins
+  SegmentBins bins;       // of these alone
+  View<double **> column; // num_facing_columns x segments in the order of the bins, and room for a last pack
 };
 
 FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
@@ -56,44 +71,95 @@ FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayH
         RayHit const &h = hit(item(i).segment);
         serves(i) = h.segment >= 0 && h.cosine >= least_cosine ? 1 : 0;
       });
-  FacingSegments facing{chosenItems(bins, serves), hit, {}};
+  FacingSegments const facing{chosenItems(bins, serves), {}};
   int const num_facing = static_cast<int>(facing.bins.item.extent(0));
-  View<int *> const faced(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::faced"), num_facing);
+  View<double **> const column("Harmos::constrain::facing", num_facing_columns, num_facing + pack_width);
   View<BinnedSegment *> const chosen = facing.bins.item;
   Kokkos::parallel_for(
-      "Harmos::constrain::faced", RangePolicy(0, num_facing),
-      KOKKOS_LAMBDA(int i) { faced(i) = segment(hit(chosen(i).segment).segment).material; });
-  facing.faced = faced;
-  return facing;
+      "Harmos::constrain::facing", RangePolicy(0, num_facing), KOKKOS_LAMBDA(int i) {
+        BinnedSegment const &c = chosen(i);
+        RayHit const &h = hit(c.segment);
+        Vector2 const cell_centre = segment(c.segment).cell_centre;
+        column(FacingX, i) = c.midpoint[0];
+        column(FacingY, i) = c.midpoint[1];
+        column(FacingNormalX, i) = c.normal[0];
+        column(FacingNormalY, i) = c.normal[1];
+        column(FacingLength, i) = c.length;
+        column(FacingGap, i) = h.gap;
+        column(FacingCellX, i) = cell_centre[0];
+        column(FacingCellY, i) = cell_centre[1];
+        column(FacingMaterial, i) = c.material;
+        column(FacedMaterial, i) = segment(h.segment).material;
+      });
+  return {facing.bins, column};
 }
+
+/// Gathers the samples of a fit at a segment's point, pack by pack.
+struct SampleGatherer
+{
+  FacingSegments const &facing;
+  InterfaceSegment const &at;
+  double material_a, material_b;
+  double shortest; // of side b [cells]
+  FitSamples &samples;
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack column(FacingColumn which, int i) const
+  {
+    return loadPack(&facing.column(which, i));
+  }
+
+  /// Cells from `at` to that of the samples, along direction d of the lattice.
+  KOKKOS_FORCEINLINE_FUNCTION Pack cellsApart(Pack const &x, Pack const &y, int d) const
+  {
+    return Math::fabs(x * Pack(at.lattice[d][0]) + y * Pack(at.lattice[d][1]));
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int begin, int end) const
+  {
+    for (int i = begin; i < end; i += pack_width)
+      take(i, end);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void take(int i, int end) const
+  {
+    constexpr double most_apart = 3.5; // the 7 x 7 cells
+    Pack const a = material_a, b = material_b, inverse_h = 1.0 / at.cell_size;
+    Pack const material = column(FacingMaterial, i), faced = column(FacedMaterial, i);
+    auto const of_a = both(material == a, faced == b);
+    auto const of_b = both(both(material == b, faced == a), Pack(shortest * at.cell_size) <= column(FacingLength, i));
+    Pack const x = inverse_h * (column(FacingX, i) - Pack(at.point[0]));
+    Pack const y = inverse_h * (column(FacingY, i) - Pack(at.point[1]));
+    Pack const length = inverse_h * column(FacingLength, i);
+    Pack const weight = fitWeight(length, x * x + y * y, inverse_h * column(FacingGap, i));
+    Pack const cell_x = column(FacingCellX, i) - Pack(at.cell_centre[0]);
+    Pack const cell_y = column(FacingCellY, i) - Pack(at.cell_centre[1]);
+    auto const near =
+        both(cellsApart(cell_x, cell_y, 0) <= Pack(most_apart), cellsApart(cell_x, cell_y, 1) <= Pack(most_apart));
+    auto const serves = both(both(either(of_a, of_b), near), weight > Pack(0.0));
+    for (int lane = 0; lane < pack_width && i + lane < end; ++lane)
+      if (laneOf(serves, lane))
+      {
+        Vector2 const n{facing.column(FacingNormalX, i + lane), facing.column(FacingNormalY, i + lane)};
+        bool const side_a = laneOf(of_a, lane);
+        samples.push({{laneOf(x, lane), laneOf(y, lane)},
+                      side_a ? n : -n,
+                      laneOf(length, lane),
+                      laneOf(weight, lane),
+                      side_a ? 0 : 1});
+      }
+  }
+};
 
 /// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
 /// `target` is what the ray of s (a segment or a part of one) meets, a segment of another material (no wall).
 KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, FacingSegments const &facing,
                                              double shortest, InterfaceSegment const &s, int target)
 {
-  double const h = s.cell_size, inverse_h = 1.0 / h;
-  int const material_a = s.material, material_b = segment(target).material;
   FitSamples samples;
-  Vector2 const reach{4.0 * h, 4.0 * h};
-  facing.bins.forEach(
-      s.point - reach, s.point + reach,
-      [&](int place, BinnedSegment const &c)
-      {
-        bool const of_a = c.material == material_a;
-        if ((!of_a && c.material != material_b) || facing.faced(place) != (of_a ? material_b : material_a) ||
-            (!of_a && c.length < shortest * h))
-          return;
-        Vector2 const offset = inverse_h * (c.midpoint - s.point);
-        double const length = inverse_h * c.length;
-        double const weight = fitWeight(length, dot(offset, offset), inverse_h * facing.hit(c.segment).gap);
-        if (!(weight > 0.0))
-          return;
-        Vector2 const apart = segment(c.segment).cell_centre - s.cell_centre;
-        if (Math::max(Math::fabs(dot(apart, s.lattice[0])), Math::fabs(dot(apart, s.lattice[1]))) > 3.5)
-          return; // beyond the 7 x 7 cells
-        samples.push({offset, of_a ? c.normal : -c.normal, length, weight, of_a ? 0 : 1});
-      });
+  Vector2 const reach{4.0 * s.cell_size, 4.0 * s.cell_size};
+  facing.bins.forEachRun(s.point - reach, s.point + reach,
+                         SampleGatherer{facing, s, static_cast<double>(s.material),
+                                        static_cast<double>(segment(target).material), shortest, samples});
   return fitNormal(samples, normalised(s.normal - segment(target).normal));
 }
 

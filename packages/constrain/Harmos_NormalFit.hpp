@@ -63,12 +63,12 @@ struct FitSamples
   }
 };
 
-/// Base weight L (1 - d^2/16)_+^2 / (1 + (g/0.3)^2) of a segment at distance d with gap g. [cells]
-KOKKOS_INLINE_FUNCTION double fitWeight(double length, double distance_squared, double gap)
+/// Base weight L (1 - d^2/16)_+^2 / (1 + (g/0.3)^2) of segments at distance d with gap g. [cells]
+KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_squared, Pack const &gap)
 {
-  double const kernel = Math::max(0.0, 1.0 - distance_squared / 16.0);
-  double const g = gap / 0.3;
-  return length * kernel * kernel / (1.0 + g * g);
+  Pack const kernel = Math::max(Pack(0.0), Pack(1.0) - distance_squared / Pack(16.0));
+  Pack const g = gap / Pack(0.3);
+  return length * kernel * kernel / (Pack(1.0) + g * g);
 }
 
 /// One pass of the fit: a weighted least-squares parabola y = alpha_s + beta t + gamma t^2 / 2 in the frame (t, n).

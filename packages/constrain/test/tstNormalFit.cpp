@@ -21,7 +21,7 @@ Vector2 fit(std::vector<FitSample> const &sample)
 
 FitSample sampleAt(Vector2 const &x, Vector2 const &n, double length, int side)
 {
-  return {x, n, length, fitWeight(length, dot(x, x), 0.0), side};
+  return {x, n, length, laneOf(fitWeight(length, dot(x, x), 0.0), 0), side};
 }
 
 double angleBetween(Vector2 const &a, Vector2 const &b)
