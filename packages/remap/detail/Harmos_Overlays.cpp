@@ -69,6 +69,9 @@ KOKKOS_INLINE_FUNCTION bool curvedWallAround(Input const &in, int cell)
   return curved;
 }
 
+/// Of the cell: what overlays leave of a donor beside an outflow boundary has left through it where there is more.
+constexpr double least_rest = 1e-13;
+
 /// A donor at work.
 template <class Polynomial>
 struct DonorAtWork
@@ -247,6 +250,13 @@ struct IntersectFunctor : Finder
     list.setRest();
   }
 
+  /// Whether a donor without overlays lies beyond an outflow face: fragments there leave in one step.
+  KOKKOS_INLINE_FUNCTION bool isGone(Donor const &d, int open) const
+  {
+    return (open & OutflowBit) != 0 && d.volume > least_rest * in.mesh.cell_volume(d.cell) &&
+           leftThroughOutflow(in, d.cell, d.centroid);
+  }
+
   /// A donor of which nothing is left above the threshold stays whole: its volume fraction at its old centroid.
   KOKKOS_INLINE_FUNCTION void makeWhole(Donor &d, int pair) const
   {
@@ -282,7 +292,7 @@ struct IntersectFunctor : Finder
     double const scale = d.rest_volume != 0.0 ? 1.0 / d.rest_volume : 0.0;
     Vector2 const outside = d.centroid + scale * d.rest_first;
     bool const owned = in.mesh.cell_depth(d.cell) == 0;
-    bool const left = (open & OutflowBit) != 0 && d.rest_volume > 1e-13 * whole;
+    bool const left = (open & OutflowBit) != 0 && d.rest_volume > least_rest * whole;
     if (left && ((open & ContactBit) == 0 || leftThroughOutflow(in, d.cell, outside)))
     {
       if (owned)
@@ -321,7 +331,12 @@ struct IntersectFunctor : Finder
       cutDonor(d, list);
       for (int o = 0; o < list.size; ++o)
         overlays.fetch<true>(number, list.slot[o]);
-      if (list.size == 0)
+      if (list.size == 0 && isGone(d, open))
+      {
+        d.polynomial = Finder::constant(loadStageFields(&donors.value(number, 0)));
+        begin(d);
+      }
+      else if (list.size == 0)
         makeWhole(d, head.pair);
       else
       {

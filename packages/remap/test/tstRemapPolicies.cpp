@@ -162,6 +162,27 @@ TEST(Policies, emptiedCell_losesItsPairAndDofNodes)
                 scene.mesh.cell_node(result.pairs.cell(pair), k));
 }
 
+TEST(Policies, fragmentBesideAnOutflow_leavesInOneStep)
+{
+  // 0.97 < x < 1 in the last cell of the bar's mesh.
+  for (int order = 1; order <= 3; ++order)
+    for (double const step : {0.029, 0.031, 0.05, 0.09})
+    {
+      Scene scene(10, 1, 0.0, twoLaws());
+      freeSides(scene);
+      scene.paint({halfPlane(-1, {0.97, 0.5}, 0.0), rest(0)}, one, one);
+      scene.options.order = order;
+      scene.move([step](int, Vector2 const &) { return Vector2{step, 0.0}; });
+      RemapResult const result = scene.remapped();
+      double const gone = std::min(step, 0.03);
+      EXPECT_EQ(result.pairs.num_pairs, gone < 0.03 ? 1 : 0);
+      EXPECT_NEAR(scene.report.outflow_mass, gone, 1e-15) << "order " << order << ", step " << step;
+      EXPECT_NEAR(scene.report.outflow_momentum[0], gone * step, 1e-15);
+      EXPECT_NEAR(scene.report.outflow_energy, gone * (1.0 + 0.5 * step * step), 1e-15);
+      EXPECT_EQ(scene.report.overlap_volume, 0.0);
+    }
+}
+
 TEST(Policies, bodiesAlongCurvedSlipWalls_slideAlongThemAndKeepTheirMass)
 {
   // A bend 1 < r < 2, 0 < angle < 1.2 with two bodies and void at both ends, turning about the centre.
