@@ -150,10 +150,12 @@ def released(load):
     return sigma**2 / (2.0 * young / (1.0 - poisson**2)) * TEE_TIME / (2700.0 * 0.5 * SPEED)
 
 
-# At load 4 the corner that slides along the slider digs in a little: that is what is left of the difference.
+# At load 4 the corner that slides along the slider digs in a little: that is what is left of the difference. How far it
+# does at 15 degrees hangs on last digits: nine offsets of the deck by up to 7e-11 cells gave 6.0e-4 to 6.2e-4 six times,
+# 9.5e-4 to 10.2e-4 three times.
 def test_three_blocks_at_a_t_push_the_slider_out_as_body_fitted_ones_do():
     h = 2.4 / 38
-    for load, worst in ((1.0, 5e-5), (4.0, 8e-4)):
+    for load, worst in ((1.0, 5e-5), (4.0, 1.2e-3)):
         time, exact = fitted_tee(load)
         print(f"  load {load}: body-fitted {exact[-1]:.2e}, all energy released {released(load):.2e}")
         check("body-fitted gain of the slider, over what the energy released gives", abs(exact[-1] / released(load) - 1.0), 0.3)
