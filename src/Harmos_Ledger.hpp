@@ -41,6 +41,7 @@ struct Ledger
   double light_nodes = 0.0;
   double repeats = 0.0;
   double merged = 0.0;
+  double bounded = 0.0;               // pairs, summed over cycles, whose specific volume was bounded
   double closed_volume = 0.0;         // spurious void that was closed [m^2]
   double greedy_cells = 0.0;          // more than five components, ordered one by one; summed over cycles
   double out_of_range = 0.0;          // pair steps outside of the equation of state's range

@@ -23,7 +23,7 @@ namespace
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
-  double sums[14] = {remap.kinetic_loss,
+  double sums[15] = {remap.kinetic_loss,
                      remap.overlap_volume,
                      remap.void_volume,
                      remap.outflow_mass,
@@ -36,8 +36,9 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
                      remap.returned_heat,
                      static_cast<double>(report.light_nodes),
                      remap.closed_volume,
-                     static_cast<double>(report.reconstruction.greedy_cells)};
-  exchange.sum(sums, 14);
+                     static_cast<double>(report.reconstruction.greedy_cells),
+                     static_cast<double>(remap.bounded)};
+  exchange.sum(sums, 15);
   l.external_work += report.external_work;
   l.contact_loss += report.constraint.contact_loss;
   l.external_impulse_x += report.external_impulse[0];
@@ -58,6 +59,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.light_nodes += sums[11];
   l.closed_volume += sums[12];
   l.greedy_cells += sums[13];
+  l.bounded += sums[14];
   l.repeats += report.repeats;
   l.restored_volume += report.restored_volume;
 }
@@ -194,6 +196,7 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.unconverged_cycles = std::llround(run.ledger.unconverged_cycles);
   s.broken_bonds = std::llround(run.ledger.broken_bonds);
   s.merged_fragments = std::llround(run.ledger.merged);
+  s.bounded_volumes = std::llround(run.ledger.bounded);
   s.closed_void_volume = run.ledger.closed_volume;
   s.greedy_cells = std::llround(run.ledger.greedy_cells);
   s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);

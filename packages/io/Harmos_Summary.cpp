@@ -99,6 +99,7 @@ std::string summaryText(Summary const &s)
   object.add("unconverged_cycles", s.unconverged_cycles);
   object.add("broken_bonds", s.broken_bonds);
   object.add("merged_fragments", s.merged_fragments);
+  object.add("bounded_specific_volumes", s.bounded_volumes);
   object.add("closed_void_volume", s.closed_void_volume);
   object.add("greedy_cells", s.greedy_cells);
   object.add("unfinished_interfaces", s.unfinished_interfaces);

@@ -49,6 +49,7 @@ struct RemapReport
   double void_volume = 0.0;                        // spurious void opened and not closed [length^2]
   double closed_volume = 0.0;                      // spurious void that was closed
   long long merged = 0;                            // fragments merged
+  long long bounded = 0;                           // pairs whose specific volume was bounded by twice the cell's
   double outflow_mass = 0.0, outflow_energy = 0.0; // kinetic + internal, net of inflow
   Vector2 outflow_momentum = {0.0, 0.0};
   Vector2 wall_impulse = {0.0,

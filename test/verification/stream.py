@@ -35,6 +35,23 @@ def test_a_uniform_stream_stays_uniform():
     uniform({"kinematics": "single"}, "single")
 
 
+def test_a_uniform_stream_along_the_axis_stays_uniform():
+    along = "[0.0, 300.0]"
+    sides = {"left": "slip wall", "right": "slip wall", "bottom": "inflow", "top": "outflow"}
+    settings = {"geometry": "axisymmetric", "bodies/water/velocity": along}
+    for side, kind in sides.items():
+        settings[f"boundaries/{side}"] = "{type: inflow, body: water, velocity: [0.0, 300.0]}" if kind == "inflow" else \
+            f"{{type: {kind}}}"
+    r = harmos(STREAM, settings)
+    mass = r.first("mass")
+    check("mass in the pipe", max(abs(m / mass - 1.0) for m in r["mass"]), 1e-12)
+    check("axial momentum", max(abs(p - r.first("momentum_y")) for p in r["momentum_y"]) / (mass * V), 1e-12)
+    check("internal energy", max(abs(e) for e in r["internal_energy"]) / r.first("kinetic_energy"), 1e-12)
+    check("outflow less inflow", max(abs(m) for m in r["outflow_mass"]) / mass, 1e-12)
+    ledger(r)
+    clean(r)
+
+
 def test_a_front_fills_the_box_and_leaves_it():
     """A body of a third of the box, carried on by what flows in behind it: rho V t flows in until the front leaves."""
     r = harmos(STREAM, {"bodies/water/center": "[0.155, 0.25]", "bodies/water/size": "[0.31, 0.5]",

@@ -188,6 +188,7 @@ TEST(Summary, file_holdsEveryKeyInOrder)
                           "unconverged_cycles",
                           "broken_bonds",
                           "merged_fragments",
+                          "bounded_specific_volumes",
                           "closed_void_volume",
                           "greedy_cells",
                           "unfinished_interfaces",

@@ -57,8 +57,8 @@ KOKKOS_INLINE_FUNCTION bool inflowQuadrilateral(Input const &in, int cell, int f
   return boundary.material >= 0 && cross(b - a, u) > 0.0;
 }
 
-/// Moments about the acceptor's corner 0 of what comes in.
-KOKKOS_INLINE_FUNCTION Moments<2> inflowMoments(Mesh const &mesh, int acceptor, Quadrilateral const &q)
+/// Volume and first moments, weighted with the radius about an axis, about the acceptor's corner 0, of what comes in.
+KOKKOS_INLINE_FUNCTION Moments<1> inflowMoments(Mesh const &mesh, int acceptor, Quadrilateral const &q)
 {
   Vector2 const origin = acceptorOrigin(mesh, acceptor);
   double x[4], y[4];
@@ -69,7 +69,8 @@ KOKKOS_INLINE_FUNCTION Moments<2> inflowMoments(Mesh const &mesh, int acceptor, 
   }
   bool whole;
   Moments<2> const m = momentsInside<Moments<2>, 4>(4, x, y, windowAbout(mesh, acceptor, origin), whole);
-  return whole ? momentsOfVertices<Moments<2>>(4, x, y) : m;
+  Moments<2> const plane = whole ? momentsOfVertices<Moments<2>>(4, x, y) : m;
+  return weighted<1>(plane, areaWeight(mesh.geometry, origin));
 }
 
 /// Find the materials of every interface cell after the remap, those of its overlays, of what flows in, of rigid

@@ -91,7 +91,7 @@ struct AccumulateFunctor
     (FieldPack(sum) + FieldPack(part + VolumeSum)).store(sum);
   }
 
-  KOKKOS_INLINE_FUNCTION bool flowsIn(int cell, int acceptor, int face, Boundary &boundary, Moments<2> &m) const
+  KOKKOS_INLINE_FUNCTION bool flowsIn(int cell, int acceptor, int face, Boundary &boundary, Moments<1> &m) const
   {
     Quadrilateral q;
     if (!inflowQuadrilateral(in, cell, face, boundary, q))
@@ -114,7 +114,7 @@ struct AccumulateFunctor
                            int const donor = donors.find(index, material);
                            any = any || (donor >= 0 && (donors.head(donor).overlaps >> slot & 1ull) != 0);
                            Boundary boundary;
-                           Moments<2> m;
+                           Moments<1> m;
                            for (int face = 0; inflow && face < 4; ++face)
                              any = any || (flowsIn(cell, acceptor, face, boundary, m) && boundary.material == material);
                          });
@@ -151,7 +151,7 @@ struct AccumulateFunctor
     for (int face = 0; face < 4; ++face)
     {
       Boundary boundary;
-      Moments<2> m;
+      Moments<1> m;
       int const candidate = flowsIn(cell, acceptor, face, boundary, m) ? candidateOf(row, boundary.material) : -1;
       if (candidate < 0)
         continue;

@@ -54,6 +54,7 @@ enum Booking : int
   BookVoid,
   BookClosed,
   BookMerged,
+  BookBounded,
   BookFailures,
   BookFailedMaterial, // of the first failed donor, plus one
   BookOutMass,

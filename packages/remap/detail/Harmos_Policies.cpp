@@ -11,6 +11,7 @@ namespace
 
 constexpr double full_tolerance = 1e-12; // of the cell: sums of fractions this near to one are made one
 constexpr double least_share = 1e-10;    // of the cell: what deformable material keeps where a rigid body covers it all
+constexpr double most_volume = 2.0;      // of the cell: what a pair's mass times its specific volume may be
 
 struct FinishFunctor
 {
@@ -157,6 +158,19 @@ struct FinishFunctor
     return deformable;
   }
 
+  /// A splinter between bodies is strained by nodes that hardly anything holds, a quarter a cycle and more: what
+  /// follows from its strain alone has no bound, and its neighbours would inherit it by the mean. No pair needs more
+  /// than the cell.
+  KOKKOS_INLINE_FUNCTION void boundSpecificVolume(int index, int c, int cell) const
+  {
+    double const largest = most_volume * in.mesh.cell_volume(cell) / acceptors.record(c, Mass);
+    if (!(acceptors.record(c, SpecificVolume) > largest))
+      return;
+    acceptors.record(c, SpecificVolume) = largest;
+    if (in.mesh.cell_depth(cell) == 0)
+      bookings(index, BookBounded) += 1.0;
+  }
+
   KOKKOS_INLINE_FUNCTION void operator()(int index) const
   {
     int const cell = classes.interface_cell(index);
@@ -179,6 +193,7 @@ struct FinishFunctor
       else
       {
         setDeformable(c, cell);
+        boundSpecificVolume(index, c, cell);
         deformable += acceptors.sum(c, VolumeSum);
       }
     }

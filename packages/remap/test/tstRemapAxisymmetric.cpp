@@ -110,6 +110,33 @@ TEST(RemapAxisymmetric, AxialDriftOfTwoRings_keepsConstantsAndVolumes)
   EXPECT_EQ(scene.report.failures, 0);
 }
 
+TEST(RemapAxisymmetric, StreamThroughOpenEnds_staysFullAndBooksItsFlow)
+{
+  Scene scene(9, 8, 0.2, twoLaws());
+  scene.aboutAxis();
+  double const speed = 0.017;
+  Boundary wall, in, out;
+  in.kind = BoundaryKind::Inflow;
+  in.velocity = {0.0, speed};
+  in.material = 0;
+  in.specific_volume = 1.0;
+  in.internal_energy = 1.0;
+  out.kind = BoundaryKind::Outflow;
+  scene.setBoundaries({wall, wall, in, out});
+  scene.paint({rest(0)}, one, one);
+  scene.move([=](int, Vector2 const &) { return Vector2{0.0, speed}; });
+  RemapResult const result = scene.remapped();
+  for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+  {
+    double const whole = scene.mesh.cell_volume(result.pairs.cell(pair));
+    EXPECT_EQ(result.state.record(pair, VolumeFraction), 1.0);
+    EXPECT_NEAR(result.state.record(pair, Mass), whole, 1e-13 * whole);
+    EXPECT_NEAR(result.state.record(pair, SpecificVolume), 1.0, 1e-13);
+  }
+  EXPECT_NEAR(scene.report.outflow_mass, 0.0, 1e-15);
+  EXPECT_NEAR(scene.report.outflow_energy, 0.0, 1e-15);
+}
+
 TEST(RemapAxisymmetric, EdgesThatCrossNextToANodeAlmostAtRest_leaveFiniteFields)
 {
   // ahead of a wave velocities fade: the triangle at such a node is smaller than what has a reciprocal

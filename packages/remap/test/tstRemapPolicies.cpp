@@ -54,6 +54,28 @@ TEST(Policies, sliverOf1e10_survivesWithoutMerging)
   EXPECT_NEAR(t.momentum[0], 0.3e-11, 1e-25);
 }
 
+TEST(Policies, specificVolumeThatRanAway_isBoundedByTheCell)
+{
+  for (double const excess : {1.0, 1e6})
+  {
+    Scene scene = barWithSliver(0.02);
+    for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+      if (scene.pairs.cell(pair) == 5)
+        scene.state.record(pair, SpecificVolume) *= excess;
+    scene.move([](int, Vector2 const &) { return Vector2{0.01, 0.0}; });
+    RemapResult const result = scene.remapped();
+    Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
+    EXPECT_NEAR(t.mass, 0.32, 1e-15);
+    EXPECT_NEAR(t.internal, 0.32, 1e-15);
+    EXPECT_EQ(scene.report.bounded, excess > 1.0 ? 1 : 0);
+    for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    {
+      double const volume = result.state.record(pair, Mass) * result.state.record(pair, SpecificVolume);
+      EXPECT_LE(volume, 2.0 * scene.mesh.cell_volume(result.pairs.cell(pair)) * (1.0 + 1e-15));
+    }
+  }
+}
+
 TEST(Policies, fragmentBelowThreshold_mergesWithoutLoss)
 {
   Scene scene = barWithSliver(0.0);
