@@ -60,19 +60,25 @@ void holdRigidNodes(Scene const &scene, CycleState &s, PredictionSums &predictio
     }
 }
 
+std::vector<Shape> presentShapes(Scene const &scene, std::vector<RigidBody> const &bodies)
+{
+  std::vector<Shape> shapes;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+  {
+    RigidBody const &start = scene.rigid_start[b];
+    shapes.push_back(scene.rigid_shape[b].moved(bodies[b].centre - start.centre, bodies[b].angle - start.angle));
+  }
+  return shapes;
+}
+
 RigidRows const &rigidRows(Scene const &scene, CycleState &state)
 {
   if (state.rigid_rows.offset.extent(0) > 0 && samePoses(state.bodies, state.rigid_pose))
     return state.rigid_rows;
-  std::vector<Shape> shapes;
+  std::vector<Shape> const shapes = presentShapes(scene, state.bodies);
   std::vector<int> materials;
-  for (std::size_t b = 0; b < state.bodies.size(); ++b)
-  {
-    RigidBody const &start = scene.rigid_start[b];
-    RigidBody const &body = state.bodies[b];
-    shapes.push_back(scene.rigid_shape[b].moved(body.centre - start.centre, body.angle - start.angle));
+  for (RigidBody const &body : state.bodies)
     materials.push_back(body.material);
-  }
   if (!shapes.empty())
   {
     PaintedRows const painted = rigidVolumes(scene.mesh, shapes, materials);

@@ -15,6 +15,9 @@ std::vector<RigidBody> predictBodies(std::vector<RigidBody> bodies, Vector2 cons
 /// x += dt v, angle += dt omega.
 void moveBodies(std::vector<RigidBody> &bodies, double dt);
 
+/// Their outlines at given poses.
+std::vector<Shape> presentShapes(Scene const &scene, std::vector<RigidBody> const &bodies);
+
 /// What the rigid bodies fill at their new poses; where none has moved, the rows of the last cycle.
 RigidRows const &rigidRows(Scene const &scene, CycleState &state);
 

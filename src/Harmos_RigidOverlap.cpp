@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_RigidMotion.hpp"
 #include "Harmos_Run.hpp"
 
 #include <Harmos_Paint.hpp>
@@ -11,16 +12,11 @@ namespace Harmos
 namespace
 {
 
-Shape presentShape(Run const &run, int body)
-{
-  RigidBody const &start = run.scene.rigid_start[body], &now = run.state.bodies[body];
-  return run.scene.rigid_shape[body].moved(now.centre - start.centre, now.angle - start.angle);
-}
-
 /// How far two bodies together fill some cell beyond its volume, over that; 0: no cell. Collective.
 double overlap(Run const &run, std::array<int, 2> const &pair)
 {
-  Shape const shape[2] = {presentShape(run, pair[0]), presentShape(run, pair[1])};
+  std::vector<Shape> const all = presentShapes(run.scene, run.state.bodies);
+  Shape const shape[2] = {all[pair[0]], all[pair[1]]};
   double most = 0.0;
   if (shape[0].boundingBox().meets(shape[1].boundingBox()))
   {

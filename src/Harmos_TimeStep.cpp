@@ -152,6 +152,8 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   View<double *[3]> const stress =
       scene.constraint.method == ConstraintMethod::Nitsche ? pairStress(s, scene.materials) : View<double *[3]>();
   std::vector<RigidBody> const bodies_n = s.bodies;
+  std::vector<Shape> const outlines =
+      scene.kinematics == Kinematics::Xfem ? presentShapes(scene, s.bodies) : std::vector<Shape>();
   for (;; dt *= 0.5, ++report.repeats)
   {
     {
@@ -163,9 +165,10 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       PhaseTimer timer("constrain", times.constrain);
       s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, dt);
       work.half = work.constrained;
-      report.constraint = constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass,
-                                              s.state.velocity, work.predicted, work.half, bodies_n, s.bodies, dt,
-                                              stress, s.bonds, scene.constraint, exchange, s.force, &s.interface_cells);
+      report.constraint =
+          constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass, s.state.velocity,
+                              work.predicted, work.half, bodies_n, s.bodies, dt, stress, s.bonds, scene.constraint,
+                              exchange, s.force, &s.interface_cells, outlines);
     }
     // What moves with its mesh outruns no neighbourhood: only the sheared and thinned cells of the reference would pay.
     if (scene.kinematics == Kinematics::Lagrangian)

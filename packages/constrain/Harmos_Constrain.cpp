@@ -2,6 +2,7 @@
 #include <Harmos_Constrain.hpp>
 #include <Harmos_ConstraintSums.hpp>
 #include <Harmos_ExplicitImpulses.hpp>
+#include <Harmos_OutlineRows.hpp>
 #include <Harmos_StateExchange.hpp>
 
 #include <stdexcept>
@@ -89,7 +90,8 @@ bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions co
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
-                            Motion const &before, double dt, InterfaceCells *kept)
+                            Motion const &before, double dt, InterfaceCells *kept, std::vector<Shape> const &outline,
+                            std::vector<RigidBody> const &predicted)
 {
   if (options.method == ConstraintMethod::Nodal || options.method == ConstraintMethod::Merged)
   {
@@ -109,9 +111,14 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   View<RayHit *> const hit = castRays(mesh, segments, bins);
   ContactRows rows =
       buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, conditions, table, bonds, options, before, dt);
+  OutlineRows between;
+  if (table.outlined)
+    between = findOutlineRows(mesh, segments, conditions, outline, predicted, options, exchange, largest, dt);
+  rows.num_multipliers += between.num_multipliers;
   exchange.sum(&rows.num_multipliers, 1);
   if (rows.num_multipliers > 0)
     exchangeContactRows(mesh, pairs, table, exchange, rows);
+  appendRows(between, rows);
   return rows;
 }
 
@@ -123,7 +130,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
                                      Exchange const &exchange, std::vector<ContactForce> const &last,
-                                     InterfaceCells *kept)
+                                     InterfaceCells *kept, std::vector<Shape> const &outline)
 {
   ScopedRegion const region("Harmos::constrain");
   if (!(dt > 0.0))
@@ -136,10 +143,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   report.pair_force.assign(width * width, PairForce());
   report.bond_load.assign(bonds.size(), BondLoad());
 
-  BodyTable const table = buildBodyTable(bodies, num_materials);
+  BodyTable table = buildBodyTable(bodies, num_materials);
+  table.outlined = !outline.empty() && options.method == ConstraintMethod::Multipliers;
   BodyTable const table_n = withBodies(table, bodies_n);
   ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
-                                           {velocity_n, table_n}, dt, kept);
+                                           {velocity_n, table_n}, dt, kept, outline, bodies);
   report.rows = rows.num_multipliers;
   if (rows.num_multipliers == 0)
   {

@@ -9,6 +9,7 @@
 #include <Harmos_FilledRegions.hpp>
 #include <Harmos_InterfaceSegments.hpp>
 #include <Harmos_RigidBody.hpp>
+#include <Harmos_Shape.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,12 +27,16 @@ struct ContactRow
   int dof_a[4], dof_b[4];     // dof nodes (deformable sides)
   double weight_a[4], weight_b[4];
   Vector2 point, normal; // of the slave's point
-  double gap;            // along n, >= 0 [length]
+  double gap;            // along n, >= 0; below between overlapping outlines of rigid bodies [length]
+  double bend;           // part of its change over the step that is of second order in v* (Harmos_OutlineRows.hpp)
   double length;         // of the slave segment [length]
   int tied;
   double friction;    // coefficient
   double restitution; // of the closing speed
   int bond;           // number of the nearest bond of a pair whose bonds can break, -1: none
+
+  /// What the bodies may come closer in the step. An overlap is not pushed out.
+  KOKKOS_INLINE_FUNCTION double opening() const { return Math::max(gap, 0.0) + bend; }
 };
 
 /// Impulse and area of contact between two materials, for contact.csv: on a by b.
@@ -99,6 +104,8 @@ struct ConstraintReport
 /// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
 /// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.
 /// \param kept Cells with interfaces, from cycle to cycle.
+/// \param outline By rigid body, at its present pose: contact between rigid bodies, and of free ones with walls, then
+///                acts where these meet (Harmos_OutlineRows.hpp). Empty: on segments, as between all others.
 /// \return Sums over all ranks. `converged` is false where the tolerance was not reached: the velocities are then those
 /// of
 ///         the last iterate, which conserves momentum all the same.
@@ -112,7 +119,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
                                      Exchange const &exchange, std::vector<ContactForce> const &last = {},
-                                     InterfaceCells *kept = nullptr);
+                                     InterfaceCells *kept = nullptr, std::vector<Shape> const &outline = {});
 
 /// The bonds of a scene at its start: one for each slave cell and pair of materials whose bond can break, where they
 /// touch. In the order of the global cells, the same on all ranks. Collective.

@@ -113,7 +113,7 @@ double ContactOperator::largestPredicted(double dt) const
       "Harmos::constrain::largestPredicted", RangePolicy(0, s.num_own),
       KOKKOS_LAMBDA(int i, double &l) {
         int const row = s.own(i);
-        double const closing = s.tied(row) ? 0.0 : Math::max(row_of(row).gap, 0.0) / dt;
+        double const closing = s.tied(row) ? 0.0 : row_of(row).opening() / dt;
         l = Math::max(l, Math::max(Math::fabs(s.predicted(row, 0) - closing), Math::fabs(s.predicted(row, 1))));
       },
       Kokkos::Max<double>(largest));

@@ -217,6 +217,13 @@ struct RowBuilder
     return a.material < b.material && !(b.cell_size < finer * a.cell_size);
   }
 
+  /// Whether the rows between two sides come from their outlines (Harmos_OutlineRows.hpp).
+  KOKKOS_INLINE_FUNCTION bool meetByOutline(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    return bodies.outlined && bodyOf(a.material) >= 0 && bodyOf(b.material) != -1 &&
+           (b.material < 0 || options.interaction(a.material, b.material).kind != Interaction::Bonded);
+  }
+
   KOKKOS_INLINE_FUNCTION bool carriesRow(int i) const
   {
     InterfaceSegment const &a = segment(i);
@@ -225,7 +232,8 @@ struct RowBuilder
         (a.face >= 0 && a.exposed < options.exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
-    if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))))
+    if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
+        meetByOutline(a, b))
       return false;
     // Kinematics `single`: both sides move with the same dof nodes.
     return b.material < 0 || dof_nodes.material(pairs.dof_node(a.pair, 0)) != -1;

@@ -34,6 +34,7 @@ struct BodyTable
 {
   View<int *> of_material; // materials: number of the body, -1: deformable
   View<RigidBody *> body;
+  bool outlined = false; // contact between rigid bodies, and with walls, has its rows from their outlines
 
   /// Fixed and prescribed bodies, and walls: what no impulse moves.
   KOKKOS_INLINE_FUNCTION bool driven(int number) const
@@ -88,10 +89,12 @@ ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
 
 /// The rows of this rank, with those of its halo where there are several ranks: segments, rays, normals, rows. Without
 /// interface on any rank one reduction tells that there are none. Collective.
+/// \param outline, predicted Of the rigid bodies, where their contact comes from outlines (bodies.outlined).
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
-                            Motion const &before = {}, double dt = 0.0, InterfaceCells *kept = nullptr);
+                            Motion const &before = {}, double dt = 0.0, InterfaceCells *kept = nullptr,
+                            std::vector<Shape> const &outline = {}, std::vector<RigidBody> const &predicted = {});
 
 /// Give every rank the rows of its halo to depth row_halo. With one rank: nothing.
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,

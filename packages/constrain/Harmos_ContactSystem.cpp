@@ -144,7 +144,7 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
 /// b along n of a row that is not tied. \param relative G v*
 KOKKOS_INLINE_FUNCTION double approach(ContactRow const &row, double relative, Motion const &before, double dt)
 {
-  double const closing = relative + Math::max(row.gap, 0.0) / dt;
+  double const closing = relative + row.opening() / dt;
   if (row.restitution == 0.0 || closing >= 0.0)
     return closing;
   double const start = dot(row.normal, relativeVelocity(row, before.velocity, before.bodies));

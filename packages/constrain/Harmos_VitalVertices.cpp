@@ -11,6 +11,17 @@ namespace Harmos
 KOKKOS_FUNCTION RowTrace rowTrace(Mesh const &mesh, ContactRow const &row)
 {
   constexpr double at_node = 1e-8; // distance of the line, in cells
+  if (row.cell_a < 0)              // between outlines of rigid bodies: stands in no cell, and shares with none
+  {
+    RowTrace alone = {};
+    alone.length = 1.0;
+    alone.material[0] = row.material_a;
+    alone.material[1] = row.material_b;
+    for (int e = 0; e < 2; ++e)
+      alone.node[e][0] = alone.node[e][1] = row.key;
+    alone.share[0] = 1.0;
+    return alone;
+  }
   int const cell = row.cell_a;
   Quadrilateral const corner = cellQuadrilateral(mesh, cell);
   double const tolerance = at_node * Math::sqrt(mesh.cell_area(cell));

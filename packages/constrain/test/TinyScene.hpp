@@ -72,6 +72,7 @@ struct TinyScene
   View<double *[3]> pair_stress; // Nitsche alone
   std::vector<Bond> bonds;
   std::vector<ContactForce> last; // options.warm_start alone
+  std::vector<Shape> outline;     // of rigid bodies; empty: contact on segments
   ConstraintOptions options;
   Exchange const *exchange = &serialExchange();
   double dt = 1e-3;
@@ -131,7 +132,7 @@ struct TinyScene
   {
     bodies = bodies_n;
     return constrainVelocities(mesh, pairs, dof_nodes, regions, conditions, dof_mass, velocity_n, predicted, half,
-                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange, last);
+                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange, last, nullptr, outline);
   }
 
   void forEachDof(std::function<void(int, int, Vector2)> const &visit) const

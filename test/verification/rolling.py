@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Free rigid bodies that roll, slide and spin on rigid ones inside of cells: rigid-body mechanics has the exact answers."""
+from math import cos, hypot, pi, radians, sin, sqrt, tan
+
+from harness import ROOT, check, clean, harmos, run
+
+DECK = ROOT / "test/verification/decks/rolling.yaml"
+G, R = 9.81, 0.2
+
+
+def on_slope(angle, start=0.5, radius=R):
+    """Ground through (0, 0.011) inclined against x, and the disc's centre `start` up the slope."""
+    a = radians(angle)
+    centre = (start * cos(a) - radius * sin(a), 0.011 + start * sin(a) + radius * cos(a))
+    return {"bodies/ground/normal": f"[{-sin(a)!r}, {cos(a)!r}]", "bodies/disc/center": f"[{centre[0]!r}, {centre[1]!r}]"}
+
+
+def motion(r, name="disc"):
+    """Speed and |angular velocity| at the end: energy tells the turning, with inertia m R^2 / 2."""
+    mass = r.last(f"{name}.mass")
+    speed = hypot(r.last(f"{name}.momentum_x"), r.last(f"{name}.momentum_y")) / mass
+    return speed, sqrt(max(4.0 * (r.last(f"{name}.kinetic_energy") / mass - 0.5 * speed**2), 0.0)) / R
+
+
+def test_a_disc_rolls_down_a_slope_at_two_thirds_of_free_fall_along_it():
+    for angle in (10.0, 20.0):
+        r = harmos(DECK, on_slope(angle))
+        speed, spin = motion(r)
+        exact = 2.0 / 3.0 * G * sin(radians(angle)) * r.last("time")
+        check(f"speed at {angle:.0f} degrees", abs(speed / exact - 1.0), 1e-9)
+        check("rolls without slip", abs(spin * R / speed - 1.0), 1e-6)
+        check("loss", abs(r.last("contact_loss")) / r.last("kinetic_energy"), 1e-9)
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        clean(r)
+
+
+def test_a_disc_slips_on_a_slope_steeper_than_three_times_the_friction():
+    angle, friction = radians(30.0), 0.1
+    assert tan(angle) > 3.0 * friction
+    r = harmos(DECK, {**on_slope(30.0), "interactions/coefficient": friction, "run/end_time": 0.4})
+    speed, spin = motion(r)
+    t = r.last("time")
+    check("speed", abs(speed / (G * (sin(angle) - friction * cos(angle)) * t) - 1.0), 1e-9)
+    check("spin", abs(spin * R / (2.0 * friction * G * cos(angle) * t) - 1.0), 1e-6)
+    clean(r)
+
+
+def test_a_sliding_disc_ends_rolling_at_two_thirds_of_its_speed_wherever_the_floor_lies():
+    for floor in (0.0, 0.011, 0.0249):
+        r = harmos(DECK, {"bodies/ground/point": f"[0.0, {floor}]", "bodies/disc/center": f"[-0.4, {floor + R}]",
+                          "bodies/disc/velocity": "[1.0, 0.0]"})
+        speed, spin = motion(r)
+        check(f"speed, floor at {floor}", abs(speed / (2.0 / 3.0) - 1.0), 1e-9)
+        check("rolls without slip", abs(spin * R / speed - 1.0), 1e-6)
+        clean(r)
+
+
+def test_a_disc_spins_on_a_smooth_floor_as_it_began():
+    r = harmos(DECK, {"interactions": "{default: sliding}", "bodies/disc/angular_velocity": 5.0})
+    speed, spin = motion(r)
+    check("spin", abs(spin / 5.0 - 1.0), 1e-9)
+    check("speed", speed, 1e-9)
+    clean(r)
+
+
+def in_ring(settings):
+    """A disc of radius 0.2 that touches the inside of a fixed ring of radius 0.5."""
+    bodies = "{material: hard, shape: annulus, center: [0.013, -0.027], inner_radius: 0.5, outer_radius: 0.62, motion: fixed}"
+    return harmos(DECK, {"bodies/ground": bodies, "bodies/disc/center": "[0.013, -0.327]", **settings})
+
+
+def distance(r):
+    """Of the disc's centre from the ring's, over the time, from the velocities."""
+    x, mass, out = [0.0, -0.3], r.first("disc.mass"), []
+    for i, dt in enumerate(r["dt"]):
+        for k, d in enumerate("xy"):
+            x[k] += dt * r[f"disc.momentum_{d}"][i] / mass if i else 0.0
+        out.append(hypot(*x))
+    return out
+
+
+def test_a_disc_runs_around_inside_a_smooth_ring():
+    turn = 2.0 * pi * 0.3
+    apart = []
+    for dt in (0.002, 0.001):
+        r = in_ring({"interactions": "{default: sliding}", "gravity": "[0.0, 0.0]", "bodies/disc/velocity": "[1.0, 0.0]",
+                     "run/end_time": turn, "run/max_dt": dt})
+        check("speed", abs(motion(r)[0] - 1.0), 1e-4)
+        apart.append(max(abs(d - 0.3) for d in distance(r)) / 0.3)
+        clean(r)
+    check("distance from the ring's centre, two steps", apart[0], 1e-4)
+    check("of second order in the step", apart[1] / apart[0], 0.3)
+
+
+def test_a_disc_swings_in_a_ring_as_the_pendulum_that_rolls():
+    """T = 2 pi sqrt(3 (b - R) / (2 g)) (1 + a^2/16): at the end of a quarter period it is at the lowest point."""
+    a = 0.2
+    quarter = 0.5 * pi * sqrt(1.5 * 0.3 / G) * (1.0 + a**2 / 16.0)
+    x, y = 0.013 + 0.3 * sin(a), -0.027 - 0.3 * cos(a)
+    r = in_ring({"bodies/disc/center": f"[{x!r}, {y!r}]", "interactions/coefficient": 0.8, "run/end_time": quarter, "run/max_dt": 5e-4})
+    speed, spin = motion(r)
+    check("speed at the lowest point", abs(speed / sqrt(4.0 / 3.0 * G * 0.3 * (1.0 - cos(a))) - 1.0), 1e-5)
+    check("rolls without slip", abs(spin * R / speed - 1.0), 1e-6)
+    check("upwards over along", abs(r.last("disc.momentum_y") / r.last("disc.momentum_x")), 1e-3)
+    clean(r)
+
+
+def test_a_box_slides_down_a_slope_without_turning():
+    angle, friction = radians(20.0), 0.2
+    middle = (0.5 * cos(angle) - 0.1 * sin(angle), 0.011 + 0.5 * sin(angle) + 0.1 * cos(angle))
+    box = f"{{material: hard, shape: rectangle, center: [{middle[0]!r}, {middle[1]!r}], size: [0.4, 0.2], angle: 20.0, motion: free}}"
+    r = harmos(DECK, {**on_slope(20.0), "bodies/disc": box, "interactions/coefficient": friction})
+    speed, spin = motion(r)
+    check("speed", abs(speed / (G * (sin(angle) - friction * cos(angle)) * r.last("time")) - 1.0), 1e-8)
+    check("spin", spin, 1e-6)
+    clean(r)
+
+
+def test_a_disc_rolls_on_a_contact_wall():
+    r = harmos(DECK, {"boundaries/bottom": "{type: contact wall, friction: 0.3}", "bodies/disc/center": "[-0.4, -0.6]",
+                      "bodies/ground": "{material: hard, shape: disc, center: [0.0, 0.6], radius: 0.05, motion: fixed}",
+                      "bodies/disc/velocity": "[1.0, 0.0]"})
+    speed, spin = motion(r)
+    check("speed", abs(speed / (2.0 / 3.0) - 1.0), 1e-9)
+    check("rolls without slip", abs(spin * R / speed - 1.0), 1e-6)
+    clean(r)
+
+
+def test_all_ranks_roll_alike():
+    settings = {**on_slope(20.0), "run/end_time": 0.1}
+    one = harmos(DECK, settings)
+    for ranks in (2, 4):
+        other = harmos(DECK, settings, ranks=ranks)
+        for column in ("time", "disc.momentum_x", "disc.momentum_y", "disc.kinetic_energy", "multipliers"):
+            assert one[column] == other[column], (ranks, column)
+        clean(other)
+    clean(one)
+
+
+if __name__ == "__main__":
+    run(globals())
