@@ -130,20 +130,36 @@ struct AccumulateFunctor
     return at_home ? slot == 0 : slot == head.residue_slot;
   }
 
-  /// Add a donor of `cell`, in which the acceptor has the slot.
-  KOKKOS_INLINE_FUNCTION void addDonor(Row &row, int cell, int donor, int slot, int rotation) const
+  /// What a donor of `cell`, in which the acceptor has the slot, gives the acceptor.
+  struct Part
   {
-    DonorHead const &head = donors.head(donor);
-    bool const overlaps = (head.overlaps >> slot & 1ull) != 0;
-    bool const residue = takesResidue(head, cell, slot);
-    int const candidate = overlaps || residue ? candidateOf(row, head.material) : -1;
-    if (candidate < 0)
-      return;
+    int donor, cell, slot, rotation;
+    bool overlaps, residue;
+  };
+
+  /// Parts that wait to be added, in their order.
+  struct Parts
+  {
+    static constexpr int room = 24;
+    int count = 0;
+    Part part[room];
+  };
+
+  KOKKOS_INLINE_FUNCTION void addParts(Row &row, Parts &parts) const
+  {
     int const acceptor = classes.interface_cell(row.index);
-    if (overlaps)
-      addOverlay(candidate, overlays.row(donor, slot), cell, acceptor, rotation);
-    if (residue)
-      add(candidate, &overlays.residue(donor, 0), cell, acceptor, rotation);
+    for (int i = 0; i < parts.count; ++i)
+    {
+      Part const &p = parts.part[i];
+      int const candidate = candidateOf(row, donors.head(p.donor).material);
+      if (candidate < 0)
+        continue;
+      if (p.overlaps)
+        addOverlay(candidate, overlays.row(p.donor, p.slot), p.cell, acceptor, p.rotation);
+      if (p.residue)
+        add(candidate, &overlays.residue(p.donor, 0), p.cell, acceptor, p.rotation);
+    }
+    parts.count = 0;
   }
 
   KOKKOS_INLINE_FUNCTION void addInflow(Row &row, int acceptor, int cell) const
@@ -184,6 +200,7 @@ struct AccumulateFunctor
   {
     bool const inflow = (classes.openAround(acceptor) & InflowBit) != 0;
     bool verbatim = !inflow;
+    Parts parts; // rows lie scattered in the outer cache: all are asked for before the first is added
     forCellAndNeighbours(in.mesh, in.links, acceptor,
                          [&](int cell, int slot, int rotation)
                          {
@@ -192,13 +209,26 @@ struct AccumulateFunctor
                              return;
                            for (int donor = donors.offset(other); donor < donors.offset(other + 1); ++donor)
                            {
-                             int const kind = donors.head(donor).kind;
-                             verbatim = verbatim && (kind == QuietDonor || (kind == RigidDonor && cell != acceptor));
-                             addDonor(row, cell, donor, slot, rotation);
+                             DonorHead const &head = donors.head(donor);
+                             verbatim =
+                                 verbatim && (head.kind == QuietDonor || (head.kind == RigidDonor && cell != acceptor));
+                             bool const overlaps = (head.overlaps >> slot & 1ull) != 0;
+                             bool const residue = takesResidue(head, cell, slot);
+                             if (!overlaps && !residue)
+                               continue;
+                             if (overlaps)
+                               overlays.fetch<false>(donor, slot);
+                             parts.part[parts.count++] = {donor, cell, slot, rotation, overlaps, residue};
+                             if (parts.count == Parts::room)
+                               addParts(row, parts);
                            }
                            if (inflow)
+                           {
+                             addParts(row, parts);
                              addInflow(row, acceptor, cell);
+                           }
                          });
+    addParts(row, parts);
     if (in.rigid.offset.extent(0) == 0)
       return verbatim;
     for (int r = in.rigid.offset(acceptor); r < in.rigid.offset(acceptor + 1); ++r)
@@ -209,26 +239,9 @@ struct AccumulateFunctor
     return verbatim;
   }
 
-  /// The donors' rows lie scattered in the outer cache: those of the next cell come while this one is summed.
-  KOKKOS_INLINE_FUNCTION void fetchRows(int index) const
-  {
-    if (index < classes.num_interface)
-      forCellAndNeighbours(in.mesh, in.links, classes.interface_cell(index),
-                           [&](int cell, int slot, int)
-                           {
-                             int const other = classes.interface_index(cell);
-                             if (other < 0)
-                               return;
-                             for (int donor = donors.offset(other); donor < donors.offset(other + 1); ++donor)
-                               if ((donors.head(donor).overlaps >> slot & 1ull) != 0)
-                                 overlays.fetch<false>(donor, slot);
-                           });
-  }
-
   KOKKOS_INLINE_FUNCTION void operator()(int index, int &fragments, int &full) const
   {
     int const acceptor = classes.interface_cell(index);
-    fetchRows(index + 1);
     for (int c = BookInMass; c <= BookInMomentumY; ++c)
       bookings(index, c) = 0.0;
     Row row{index, acceptors.begin(index), 0, false};
