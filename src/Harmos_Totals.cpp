@@ -4,6 +4,7 @@
 #include <Harmos_CellVoid.hpp>
 #include <Harmos_Failure.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Harmos
@@ -54,41 +55,60 @@ PairCounts countPairs(Scene const &scene, CycleState const &s)
 /// cell by its tolerance would reach across that cell.
 constexpr double film = 1e-6;
 
+/// Lower the least x, -x, y, -y of a pair's filled region.
+KOKKOS_INLINE_FUNCTION void lowerExtents(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+                                         int pair, double *least)
+{
+  auto const lower = [least](Vector2 const &x)
+  {
+    for (int side = 0; side < 4; ++side)
+      least[side] = Math::min(least[side], side % 2 == 0 ? x[side / 2] : -x[side / 2]);
+  };
+  int const cell = pairs.cell(pair), first = regions.cell_region(cell);
+  if (first < 0)
+  {
+    Quadrilateral const corners = cellQuadrilateral(mesh, cell);
+    for (int k = 0; k < 4; ++k)
+      lower(corners[k]);
+    return;
+  }
+  Region const &region = regions.polygon(first + pair - pairs.offset(cell));
+  for (int i = 0; i < region.size; ++i)
+    lower(region[i]);
+}
+
 /// Least and greatest coordinates of the filled regions of all ranks: x_min, x_max, y_min, y_max by material.
 std::vector<double> extents(Scene const &scene, CycleState const &s, FilledRegions const &regions, int num_materials)
 {
-  double const none = 1e300;
+  constexpr double none = 1e300;
   auto const mesh = scene.mesh;
   auto const pairs = s.pairs;
   auto const record = s.state.record;
+  int const chunk = std::max(256, pairs.num_pairs / 4096 + 1), num_chunks = (pairs.num_pairs + chunk - 1) / chunk;
+  View<double **[4]> const partial(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::extents"), num_chunks,
+                                   num_materials);
+  Kokkos::parallel_for(
+      "Harmos::extents", RangePolicy(0, num_chunks), KOKKOS_LAMBDA(int c) {
+        for (int i = 0; i < 4 * num_materials; ++i)
+          partial(c, i / 4, i % 4) = none;
+        for (int pair = c * chunk; pair < Math::min((c + 1) * chunk, pairs.num_pairs); ++pair)
+        {
+          int const m = pairs.material(pair);
+          if (m < num_materials && mesh.cell_depth(pairs.cell(pair)) == 0 && !(record(pair, VolumeFraction) < film))
+            lowerExtents(mesh, pairs, regions, pair, &partial(c, m, 0));
+        }
+      });
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), partial);
   std::vector<double> result;
-  // A minimum does not depend on the order. Materials are few: each takes a pass of its own.
   for (int m = 0; m < num_materials; ++m)
-  {
-    double least[4] = {none, none, none, none};
-    Kokkos::parallel_reduce(
-        "Harmos::extents", RangePolicy(0, pairs.num_pairs),
-        KOKKOS_LAMBDA(int pair, double &x_low, double &x_high, double &y_low, double &y_high) {
-          int const cell = pairs.cell(pair);
-          if (pairs.material(pair) != m || mesh.cell_depth(cell) != 0 || record(pair, VolumeFraction) < film)
-            return;
-          Region const region = regions.region(mesh, pairs, pair);
-          for (int i = 0; i < region.size; ++i)
-          {
-            x_low = Math::min(x_low, region[i][0]);
-            x_high = Math::min(x_high, -region[i][0]);
-            y_low = Math::min(y_low, region[i][1]);
-            y_high = Math::min(y_high, -region[i][1]);
-          }
-        },
-        Kokkos::Min<double>(least[0]), Kokkos::Min<double>(least[1]), Kokkos::Min<double>(least[2]),
-        Kokkos::Min<double>(least[3]));
     for (int side = 0; side < 4; ++side)
     {
-      double const all = scene.exchange->min(least[side]);
+      double least = none;
+      for (int c = 0; c < num_chunks; ++c)
+        least = std::min(least, host(c, m, side));
+      double const all = scene.exchange->min(least);
       result.push_back(all == none ? 0.0 : (side % 2 == 0 ? all : -all));
     }
-  }
   return result;
 }
 
