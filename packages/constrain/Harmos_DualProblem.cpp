@@ -19,41 +19,27 @@ int placeOf(std::vector<long long> const &key, long long wanted)
   return static_cast<int>(std::lower_bound(key.begin(), key.end(), wanted) - key.begin());
 }
 
-/// Blocks with those of the same two rows added up: lower triangle by rows, in any order of columns.
-struct BlockMatrix
+/// Where the blocks of rows lie in their matrix: lower triangle by rows, in any order of columns.
+struct BlockPattern
 {
   std::vector<int> offset = {0}, column;
-  std::vector<DualBlock> block;
 };
 
-BlockMatrix mergeBlocks(DualRows const &rows)
+BlockPattern blockPattern(DualRows const &rows)
 {
-  BlockMatrix m;
-  std::vector<int> found(rows.key.size(), -1);
-  std::size_t from = 0;
+  BlockPattern m;
+  m.column.reserve(rows.other.size());
   for (std::size_t i = 0; i < rows.key.size(); ++i)
   {
-    for (long long k = 0; k < rows.count[i]; ++k, ++from)
-    {
-      // Most couple to themselves or to the last ones.
-      int const j = rows.other[from] == rows.key[i] ? static_cast<int>(i) : placeOf(rows.key, rows.other[from]);
-      if (found[j] < m.offset.back())
-      {
-        found[j] = static_cast<int>(m.column.size());
-        m.column.push_back(j);
-        m.block.push_back(DualBlock{});
-      }
-      for (int a = 0; a < 2; ++a)
-        for (int b = 0; b < 2; ++b)
-          m.block[found[j]].value[a][b] += rows.block[from].value[a][b];
-    }
-    m.offset.push_back(static_cast<int>(m.column.size()));
+    m.offset.push_back(m.offset.back() + static_cast<int>(rows.count[i]));
+    for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
+      m.column.push_back(rows.other[e] == rows.key[i] ? static_cast<int>(i) : placeOf(rows.key, rows.other[e]));
   }
   return m;
 }
 
 /// Rows in an order that keeps those which share dof nodes near each other.
-std::vector<int> orderRows(BlockMatrix const &m)
+std::vector<int> orderRows(BlockPattern const &m)
 {
   int const n = static_cast<int>(m.offset.size()) - 1;
   std::vector<int> offset(n + 1, 0), item(2 * m.column.size()), filled(n, 0);
@@ -102,7 +88,7 @@ LowerTriangle byRows(std::vector<MatrixEntry> const &entry, std::size_t size)
 }
 
 /// Scaled entries of the matrix, each in the row of its later unknown.
-LowerTriangle scalarMatrix(BlockMatrix const &m, DualRows const &rows, std::vector<int> const &first,
+LowerTriangle scalarMatrix(BlockPattern const &m, DualRows const &rows, std::vector<int> const &first,
                            std::vector<double> const &root)
 {
   std::vector<MatrixEntry> entry;
@@ -115,7 +101,7 @@ LowerTriangle scalarMatrix(BlockMatrix const &m, DualRows const &rows, std::vect
         for (int l = 0; l < static_cast<int>(i == j ? k + 1 : rows.row[j].directions); ++l)
         {
           int const a = first[i] + k, b = first[j] + l;
-          entry.push_back({std::max(a, b), std::min(a, b), m.block[e].value[k][l] / (root[a] * root[b])});
+          entry.push_back({std::max(a, b), std::min(a, b), rows.block[e].value[k][l] / (root[a] * root[b])});
         }
     }
   return byRows(entry, root.size());
@@ -341,8 +327,10 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
                                      Placement placement, Exchange const &exchange)
 {
   View<long long *> const key = keysOf(rows);
-  DualRows const own = ownRows(system, key), all = allRows(own, exchange);
-  BlockMatrix const blocks = mergeBlocks(all);
+  DualRows own = ownRows(system, key);
+  std::vector<long long> const own_key = own.key;
+  DualRows const all = allRows(std::move(own), exchange);
+  BlockPattern const blocks = blockPattern(all);
   std::vector<int> const order = orderRows(blocks);
   std::vector<int> first(all.key.size());
   int unknowns = 0;
@@ -369,7 +357,7 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
   assembled.first = first;
   if (sharesMultipliers(placement))
   {
-    std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own.key, exchange);
+    std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own_key, exchange);
     int num_groups = 0, coarse = 0;
     auto const shares = vitalGroups(trace, rowKinds(trace, all.row), num_groups);
     assembled.spread = spreadOf(shares, all.row, order, first, num_groups, coarse);

@@ -37,6 +37,19 @@ KOKKOS_INLINE_FUNCTION void forEachBlock(ContactSystem const &s, int row, Visito
   }
 }
 
+/// Number of visits of forEachBlock, which may come to a row more than once.
+KOKKOS_INLINE_FUNCTION int countBlocks(ContactSystem const &s, int row)
+{
+  int count = 0;
+  for (int c = 0; c < 8; ++c)
+  {
+    int const dof = s.dof(row, c);
+    for (int e = dof < 0 ? 0 : s.rows_of.offset(dof); dof >= 0 && e < s.rows_of.offset(dof + 1); ++e)
+      count += s.rows_of.item(e) / 8 <= row ? 1 : 0;
+  }
+  return count;
+}
+
 KOKKOS_INLINE_FUNCTION DualRow dualRow(ContactSystem const &s, int row)
 {
   DualRow d = {};
@@ -56,6 +69,25 @@ KOKKOS_INLINE_FUNCTION DualRow dualRow(ContactSystem const &s, int row)
   return d;
 }
 
+/// An array that the next kernel fills.
+template <class T>
+View<T *> unset(char const *label, int size)
+{
+  return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string("Harmos::constrain::") + label), size);
+}
+
+/// Append items offset(i) .. offset(i) + count[i] - 1 of all i.
+template <class T>
+void appendRanges(View<int *> const &offset, std::vector<long long> const &count, View<T *> const &item,
+                  std::vector<T> &out)
+{
+  auto const begin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), offset);
+  auto const from = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), item);
+  out.reserve(std::accumulate(count.begin(), count.end(), std::size_t(0)));
+  for (std::size_t i = 0; i < count.size(); ++i)
+    out.insert(out.end(), from.data() + begin(i), from.data() + begin(i) + count[i]);
+}
+
 } // namespace
 
 View<long long *> keysOf(ContactRows const &rows)
@@ -69,42 +101,51 @@ View<long long *> keysOf(ContactRows const &rows)
 
 DualRows ownRows(ContactSystem const &s, View<long long *> const &key)
 {
-  View<DualRow *> const row("Harmos::constrain::dual_row", s.num_own);
-  View<long long *> const own_key("Harmos::constrain::own_key", s.num_own);
-  View<long long *> const count("Harmos::constrain::block_count", s.num_own);
-  View<int *> const offset("Harmos::constrain::block_offset", s.num_own);
-  int total = 0;
+  View<DualRow *> const row = unset<DualRow>("dual_row", s.num_own);
+  View<long long *> const own_key = unset<long long>("own_key", s.num_own);
+  View<long long *> const count = unset<long long>("block_count", s.num_own);
+  View<int *> const offset = unset<int>("block_offset", s.num_own);
+  int room = 0;
   Kokkos::parallel_scan(
       "Harmos::constrain::countBlocks", RangePolicy(0, s.num_own),
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
-        int blocks = 0;
-        forEachBlock(s, s.own(i), [&](int, DualBlock const &) { ++blocks; });
         if (final)
-        {
-          row(i) = dualRow(s, s.own(i));
-          own_key(i) = key(s.own(i));
-          count(i) = blocks;
           offset(i) = sum;
-        }
-        sum += blocks;
+        sum += countBlocks(s, s.own(i));
       },
-      total);
-  View<DualBlock *> const block(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::block"), total);
-  View<long long *> const other(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::other"), total);
+      room);
+  View<DualBlock *> const block = unset<DualBlock>("block", room);
+  View<long long *> const other = unset<long long>("other", room);
   Kokkos::parallel_for(
       "Harmos::constrain::fillBlocks", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
-        int at = offset(i);
+        row(i) = dualRow(s, s.own(i));
+        own_key(i) = key(s.own(i));
+        int const begin = offset(i);
+        int end = begin;
         forEachBlock(s, s.own(i),
                      [&](int other_row, DualBlock const &b)
                      {
-                       other(at) = key(other_row);
-                       block(at++) = b;
+                       int at = begin;
+                       while (at < end && other(at) != key(other_row))
+                         ++at;
+                       if (at == end)
+                       {
+                         other(end) = key(other_row);
+                         block(end++) = DualBlock{};
+                       }
+                       for (int k = 0; k < 2; ++k)
+                         for (int l = 0; l < 2; ++l)
+                           block(at).value[k][l] += b.value[k][l];
                      });
+        count(i) = end - begin;
       });
-  return {toHost(own_key), toHost(row), toHost(count), toHost(other), toHost(block)};
+  DualRows own{toHost(own_key), toHost(row), toHost(count), {}, {}};
+  appendRanges(offset, own.count, other, own.other);
+  appendRanges(offset, own.count, block, own.block);
+  return own;
 }
 
-DualRows allRows(DualRows const &own, Exchange const &exchange)
+DualRows allRows(DualRows own, Exchange const &exchange)
 {
   if (exchange.size() == 1)
     return own;

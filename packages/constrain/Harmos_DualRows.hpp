@@ -19,7 +19,7 @@ struct DualRow
   double jacobian[2][6]; // by direction: of side a's body, of side b's
 };
 
-/// Part of the coupling of a row to one that is not behind it in the order of keys, by one dof node.
+/// The coupling of a row to one that is not behind it in the order of keys.
 struct DualBlock
 {
   double value[2][2]; // by direction of the row, of the other row
@@ -30,7 +30,7 @@ struct DualRows
 {
   std::vector<long long> key;
   std::vector<DualRow> row;
-  std::vector<long long> count; // blocks of a row
+  std::vector<long long> count; // blocks of a row, each with another row
   std::vector<long long> other; // key of the other row of a block
   std::vector<DualBlock> block;
 };
@@ -61,7 +61,7 @@ View<long long *> keysOf(ContactRows const &rows);
 DualRows ownRows(ContactSystem const &system, View<long long *> const &key);
 
 /// The rows of all ranks in the order of keys. Collective.
-DualRows allRows(DualRows const &own, Exchange const &exchange);
+DualRows allRows(DualRows own, Exchange const &exchange);
 
 } // namespace Harmos
 
