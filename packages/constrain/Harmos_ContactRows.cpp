@@ -129,8 +129,11 @@ struct SampleGatherer
     auto const of_b = both(both(material == b, faced == a), Pack(shortest * at.cell_size) <= column(FacingLength, i));
     Pack const x = inverse_h * (column(FacingX, i) - Pack(at.point[0]));
     Pack const y = inverse_h * (column(FacingY, i) - Pack(at.point[1]));
+    Pack const distance_squared = x * x + y * y;
+    if (!any(both(either(of_a, of_b), distance_squared < Pack(fit_reach * fit_reach))))
+      return;
     Pack const length = inverse_h * column(FacingLength, i);
-    Pack const weight = fitWeight(length, x * x + y * y, inverse_h * column(FacingGap, i));
+    Pack const weight = fitWeight(length, distance_squared, inverse_h * column(FacingGap, i));
     Pack const cell_x = column(FacingCellX, i) - Pack(at.cell_centre[0]);
     Pack const cell_y = column(FacingCellY, i) - Pack(at.cell_centre[1]);
     auto const near =
@@ -156,7 +159,7 @@ KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &seg
                                              double shortest, InterfaceSegment const &s, int target)
 {
   FitSamples samples;
-  Vector2 const reach{4.0 * s.cell_size, 4.0 * s.cell_size};
+  Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
   facing.bins.forEachRun(s.point - reach, s.point + reach,
                          SampleGatherer{facing, s, static_cast<double>(s.material),
                                         static_cast<double>(segment(target).material), shortest, samples});

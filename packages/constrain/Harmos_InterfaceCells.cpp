@@ -34,6 +34,19 @@ bool hasContactWall(View<Boundary *> const &boundary)
   return false;
 }
 
+bool hasFreeFace(CellSurface const &surface)
+{
+  int free = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::freeFaces", RangePolicy(0, surface.mesh.num_cells),
+      KOKKOS_LAMBDA(int cell, int &count) {
+        for (int k = 0; k < 4; ++k)
+          count += surface.freeFace(cell, k) ? 1 : 0;
+      },
+      free);
+  return free > 0;
+}
+
 // What a node carries: its only material, else one of these.
 constexpr int no_material = -1;
 constexpr int several_materials = 1 << 30;
@@ -93,10 +106,12 @@ void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof
 {
   Mesh const &mesh = surface.mesh;
   CellMaterialPairs const &pairs = surface.pairs;
-  if (cells.count >= 0 && cells.pairs.offset.data() == pairs.offset.data() &&
+  bool const same_mesh = cells.count >= 0 && cells.face_neighbour.data() == mesh.face_neighbour.data();
+  if (same_mesh && cells.pairs.offset.data() == pairs.offset.data() &&
       cells.pairs.material.data() == pairs.material.data() && cells.pairs.cell_kind.data() == pairs.cell_kind.data() &&
-      cells.face_neighbour.data() == mesh.face_neighbour.data() && cells.boundary.data() == surface.boundary.data())
+      cells.boundary.data() == surface.boundary.data())
     return;
+  bool const free_faces = same_mesh ? cells.free_faces : hasFreeFace(surface);
   View<int *> const near = cellsNearOthers(surface, dof_nodes);
   int const num_cells = mesh.num_cells, halo = mesh.halo;
   View<int *> const depth = mesh.cell_depth;
@@ -107,7 +122,7 @@ void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof
       "Harmos::constrain::listInterfaceCells", RangePolicy(0, num_cells),
       KOKKOS_LAMBDA(int cell, int &sum, bool final) {
         bool candidate = near(cell) == 1;
-        for (int k = 0; k < 4; ++k)
+        for (int k = 0; free_faces && k < 4; ++k)
           candidate = candidate || surface.freeFace(cell, k);
         if (!candidate || (halo > 0 && depth(cell) >= halo) || !carriesSegments(surface, cell))
           return;
@@ -116,7 +131,7 @@ void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof
         ++sum;
       },
       count);
-  cells = {pairs, mesh.face_neighbour, surface.boundary, count, visited};
+  cells = {pairs, mesh.face_neighbour, surface.boundary, free_faces, count, visited};
 }
 
 } // namespace Harmos

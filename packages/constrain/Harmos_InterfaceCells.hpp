@@ -51,6 +51,7 @@ struct InterfaceCells
   CellMaterialPairs pairs; // what they were found for
   View<int *[4]> face_neighbour;
   View<Boundary *> boundary;
+  bool free_faces = false; // some face has neither a neighbour nor a boundary
   int count = -1;
   View<int *> cell; // ascending; count, and some room
 };

@@ -63,10 +63,12 @@ struct FitSamples
   }
 };
 
+constexpr double fit_reach = 4.0; // distance from which on segments have no weight [cells]
+
 /// Base weight L (1 - d^2/16)_+^2 / (1 + (g/0.3)^2) of segments at distance d with gap g. [cells]
 KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_squared, Pack const &gap)
 {
-  Pack const kernel = Math::max(Pack(0.0), Pack(1.0) - distance_squared / Pack(16.0));
+  Pack const kernel = Math::max(Pack(0.0), Pack(1.0) - distance_squared / Pack(fit_reach * fit_reach));
   Pack const g = gap / Pack(0.3);
   return length * kernel * kernel / (Pack(1.0) + g * g);
 }
