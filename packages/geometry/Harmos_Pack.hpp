@@ -106,10 +106,14 @@ KOKKOS_FORCEINLINE_FUNCTION Pack select(Pack::Mask const &condition, Pack const 
 }
 KOKKOS_FORCEINLINE_FUNCTION bool any(Pack::Mask const &mask)
 {
+#if defined(__AVX__) && !defined(__AVX512F__)
+  return __builtin_ia32_movmskpd256((Pack::Lanes)mask) != 0; // compilers would take the lanes out one by one
+#else
   long long all = 0;
   for (int lane = 0; lane < pack_width; ++lane)
     all |= mask[lane];
   return all != 0;
+#endif
 }
 KOKKOS_FORCEINLINE_FUNCTION Pack::Mask both(Pack::Mask const &a, Pack::Mask const &b)
 {

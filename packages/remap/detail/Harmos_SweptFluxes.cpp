@@ -27,11 +27,12 @@ struct Outflow
 struct Columns
 {
   double const *face[4];
-  std::ptrdiff_t stride[4];
+  double const *own;
 
-  KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * stride[k]); }
+  KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * column_stride); }
+  KOKKOS_FORCEINLINE_FUNCTION Pack ofCell(int column) const { return loadPack(own + column * column_stride); }
 };
-using GatheredColumns = double[num_neighbour_columns][pack_width];
+using GatheredColumns = double[num_neighbour_columns][column_stride]; // face k's from 4 k on; strides as in the window
 
 /// Two differences across the cell and the 2 x 2 matrix that makes a gradient of them, by columns.
 struct Directions
@@ -43,7 +44,7 @@ struct Directions
 struct Beyond
 {
   Pack x[4], y[4];
-  bool at_boundary = false; // some cells are
+  bool at_boundary; // some cells are, and the limiter minds it
 };
 
 template <RemapLimiter limiter>
@@ -68,23 +69,22 @@ struct SweptFluxFunctor
       bool const same = lane < count && stage.sameBeyond(cell, k);
       double const *column = stage.at(CentroidX, same ? stage.face_neighbour(cell, k) >> 2 : cell);
       for (int c = 0; c < num_neighbour_columns; ++c, column += column_stride)
-        gathered[c][lane] = *column;
+        gathered[c][k * pack_width + lane] = *column;
     }
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION Columns columnsBeyond(int first, int block, GatheredColumns (&gathered)[4]) const
+  KOKKOS_FORCEINLINE_FUNCTION Columns columnsBeyond(int first, int block, GatheredColumns &gathered) const
   {
     Columns beyond;
+    beyond.own = stage.at(0, first);
     for (int k = 0; k < 4; ++k)
     {
       bool const in_run = (block & RunBit << k) != 0;
       beyond.face[k] = stage.at(CentroidX, stage.second_order && in_run ? stage.face_neighbour(first, k) >> 2 : first);
-      beyond.stride[k] = column_stride;
       if (!stage.second_order || in_run)
         continue;
-      gather(first, k, gathered[k]);
-      beyond.face[k] = gathered[k][0];
-      beyond.stride[k] = pack_width;
+      gather(first, k, gathered);
+      beyond.face[k] = &gathered[0][k * pack_width];
     }
     return beyond;
   }
@@ -188,19 +188,39 @@ struct SweptFluxFunctor
     return out;
   }
 
-  /// At the boundary of the mesh. \param p Beyond the faces.
-  HARMOS_RARE_FUNCTION void widen(int first, int field, Pack const (&p)[4], Field &f) const
+  /// At the boundary of the mesh.
+  HARMOS_RARE_FUNCTION void widen(int first, int field, Columns const &columns, double (&lower)[pack_width],
+                                  double (&upper)[pack_width]) const
   {
-    double lower[pack_width], upper[pack_width];
-    storePack(lower, f.lower);
-    storePack(upper, f.upper);
+    Pack const q = columns.ofCell(FieldColumn + field);
+    Pack p[4];
+    for (int k = 0; k < 4; ++k)
+      p[k] = columns.load(k, FieldColumn + field);
     for (int lane = 0; lane < pack_width && first + lane < end; ++lane)
       for (int k = 0; k < 4; ++k)
         if (stage.endsAt(first + lane, k))
-          widenByMirrored(laneOf(f.q, lane), laneOf(p[(k + 2) & 3], lane), stage.leastOf(first + lane)[field],
+          widenByMirrored(laneOf(q, lane), laneOf(p[(k + 2) & 3], lane), stage.leastOf(first + lane)[field],
                           stage.largestOf(first + lane)[field], lower[lane], upper[lane]);
-    f.lower = loadPack(lower);
-    f.upper = loadPack(upper);
+  }
+
+  /// A field of the cells and, in p, beyond their faces.
+  KOKKOS_FORCEINLINE_FUNCTION Field fieldOf(int first, int field, Directions const &directions, Beyond const &offset,
+                                            Columns const &columns, Pack (&p)[4]) const
+  {
+    for (int k = 0; k < 4; ++k)
+      p[k] = columns.load(k, FieldColumn + field);
+    Field f = differentiate(directions, columns.ofCell(FieldColumn + field), p);
+    if (offset.at_boundary)
+    {
+      double lower[pack_width], upper[pack_width]; // what a call may change would leave its registers for all cells
+      storePack(lower, f.lower);
+      storePack(upper, f.upper);
+      Columns const copy = columns;
+      widen(first, field, copy, lower, upper);
+      f.lower = loadPack(lower);
+      f.upper = loadPack(upper);
+    }
+    return f;
   }
 
   /// The fluxes of a field that is weighted by what leaves, volume or mass.
@@ -208,29 +228,24 @@ struct SweptFluxFunctor
                                               Columns const &columns, Outflow const &out, Pack const (&weight)[4],
                                               Pack const &per_staying) const
   {
-    Pack const q = loadPack(stage.at(FieldColumn + field, first));
     Pack p[4], deviation[4];
-    for (int k = 0; k < 4; ++k)
-      p[k] = columns.load(k, FieldColumn + field);
-    Field f = differentiate(directions, q, p);
-    if (offset.at_boundary)
-      widen(first, field, p, f);
+    Field const f = fieldOf(first, field, directions, offset, columns, p);
+    Pack const q = f.q;
     Pack const part = limit(f, offset, p, out, weight, per_staying, deviation);
     for (int i = 0; i < out.count; ++i)
       storePack(out.face[i] + (1 + field) * column_stride, weight[i] * (q + part * deviation[i]));
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION Beyond offsets(int first, Columns const &columns) const
+  KOKKOS_FORCEINLINE_FUNCTION static Beyond offsets(int block, Columns const &columns)
   {
     Beyond offset;
-    Pack const x = loadPack(stage.at(CentroidX, first)), y = loadPack(stage.at(CentroidY, first));
+    offset.at_boundary = limiter == RemapLimiter::RangeInside && (block & BoundaryBit) != 0;
+    Pack const x = columns.ofCell(CentroidX), y = columns.ofCell(CentroidY);
     for (int k = 0; k < 4; ++k)
     {
       offset.x[k] = columns.load(k, CentroidX) - x;
       offset.y[k] = columns.load(k, CentroidY) - y;
     }
-    for (int cell = first; limiter == RemapLimiter::RangeInside && cell < first + pack_width && cell < end; ++cell)
-      offset.at_boundary = offset.at_boundary || stage.isAtBoundary(cell);
     return offset;
   }
 
@@ -240,23 +255,19 @@ struct SweptFluxFunctor
     int const block = stage.blockOf(first);
     if ((block & all_leave_bits) == 0)
       return;
-    GatheredColumns gathered[4];
+    GatheredColumns gathered;
     Columns const columns = columnsBeyond(first, block, gathered);
     Outflow const out = outflow(first, block);
-    Beyond const offset = offsets(first, columns);
+    Beyond const offset = offsets(block, columns);
     Directions const directions = invert(offset.x, offset.y);
 
     // Density first: it gives the mass fluxes that weigh the primitives.
-    Pack const rho = loadPack(stage.at(FieldColumn + DensityField, first));
     // Where all of a cell leaves, no mean of what stays bounds anything (largestSweptPart).
     auto const remains = out.staying > Pack(0.0);
     Pack const per_volume = select(remains, Pack(1.0 / select(remains, out.staying, Pack(1.0))), Pack(0.0));
     Pack deviation[4], density[4], mass[4];
-    for (int k = 0; k < 4; ++k)
-      density[k] = columns.load(k, FieldColumn + DensityField);
-    Field f = differentiate(directions, rho, density);
-    if (offset.at_boundary)
-      widen(first, DensityField, density, f);
+    Field const f = fieldOf(first, DensityField, directions, offset, columns, density);
+    Pack const rho = f.q;
     Pack const part = limit(f, offset, density, out, out.volume, per_volume, deviation);
     Pack staying_mass = out.moved_volume * rho;
     for (int i = 0; i < out.count; ++i)

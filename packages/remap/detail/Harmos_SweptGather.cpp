@@ -45,13 +45,12 @@ struct EdgePair
 struct Neighbours
 {
   double const *face[4];
-  std::ptrdiff_t stride[4];
   Pack velocity_x[4][2], velocity_y[4][2];
 
-  KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * stride[k]); }
+  KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * column_stride); }
 };
-/// The columns of a face, then x, y of the two velocities.
-using GatheredFace = double[num_face_columns + 4][pack_width];
+/// The columns of a face, then x, y of the two velocities; those of face k from lane pack_width k on.
+using GatheredFaces = double[num_face_columns + 4][column_stride];
 
 struct SweptGatherFunctor
 {
@@ -62,6 +61,7 @@ struct SweptGatherFunctor
   struct Block
   {
     int first;
+    double *own; // its rows of the window
     int cell[pack_width], pair[pack_width];
     unsigned pure; // lanes
     int bits;      // SweptBlock
@@ -70,23 +70,24 @@ struct SweptGatherFunctor
   /// What the cells exchange with their neighbours.
   struct Exchanged
   {
-    Pack change[num_pair_fields]; // sums what all fluxes bring
-    Pack outflow[4];              // mass that leaves through each face
-    Pack volume;                  // after
-    Pack flow;                    // zero where nothing moves
+    Pack::Mask enters[4]; // something does, through each face
+    int entering;         // 1 << k: through face k of some cell
+    Pack outflow[4];      // mass that leaves through each face
+    Pack volume;          // after
+    Pack flow;            // zero where nothing moves
   };
 
-  KOKKOS_FORCEINLINE_FUNCTION Pack own(Block const &block, int column) const
+  KOKKOS_FORCEINLINE_FUNCTION static Pack own(Block const &block, int column)
   {
-    return loadPack(stage.at(column, block.first));
+    return loadPack(block.own + column * column_stride);
   }
 
   /// Lane by lane, where the neighbours beyond a face are no run of cells.
-  HARMOS_RARE_FUNCTION void gatherFace(Block const &block, int k, GatheredFace &gathered) const
+  HARMOS_RARE_FUNCTION void gatherFace(Block const &block, int k, GatheredFaces &gathered) const
   {
-    for (int lane = 0; lane < pack_width; ++lane)
+    for (int i = 0; i < pack_width; ++i)
     {
-      int const cell = block.cell[lane];
+      int const cell = block.cell[i], lane = k * pack_width + i;
       bool const same = stage.sameBeyond(cell, k);
       int const face = same ? stage.face_neighbour(cell, k) : 4 * cell + k;
       double const *column = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
@@ -101,13 +102,13 @@ struct SweptGatherFunctor
       bool const goes_beyond = same && stage.second_order;
       int const from = goes_beyond ? face >> 2 : cell;
       bool const ends = !same && stage.second_order && stage.face_neighbour(cell, k) < 0;
-      for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
       {
-        if (ends && mirrorBeyond(cell, k, i, lane, gathered))
+        if (ends && mirrorBeyond(cell, k, j, lane, gathered))
           continue;
-        double const *velocity = stage.at(velocityColumn(face, k, i, goes_beyond), from);
-        gathered[num_face_columns + 2 * i][lane] = velocity[0];
-        gathered[num_face_columns + 2 * i + 1][lane] = velocity[column_stride];
+        double const *velocity = stage.at(velocityColumn(face, k, j, goes_beyond), from);
+        gathered[num_face_columns + 2 * j][lane] = velocity[0];
+        gathered[num_face_columns + 2 * j + 1][lane] = velocity[column_stride];
       }
     }
   }
@@ -127,7 +128,7 @@ struct SweptGatherFunctor
   /// Beyond a wall at rest along which the node k + i of face k slips: the velocity of the node behind it, mirrored, so
   /// that what grows from zero away from the wall keeps its slope there. \return false: no such wall, or the axis,
   /// where corners have no equal shares.
-  KOKKOS_INLINE_FUNCTION bool mirrorBeyond(int cell, int k, int i, int lane, GatheredFace &gathered) const
+  KOKKOS_INLINE_FUNCTION bool mirrorBeyond(int cell, int k, int i, int lane, GatheredFaces &gathered) const
   {
     int const a = stage.cell_node(cell, k), b = stage.cell_node(cell, (k + 1) & 3);
     int const condition = stage.node_condition[i == 0 ? a : b];
@@ -152,7 +153,7 @@ struct SweptGatherFunctor
     return true;
   }
 
-  KOKKOS_INLINE_FUNCTION void gatherMixed(int pair, int face, int lane, GatheredFace &gathered) const
+  KOKKOS_INLINE_FUNCTION void gatherMixed(int pair, int face, int lane, GatheredFaces &gathered) const
   {
     for (int i = 0; i < 2; ++i)
     {
@@ -172,34 +173,33 @@ struct SweptGatherFunctor
     return CornerColumn + 2 * (goes_beyond ? beyondCorner(face, i) : (k + i) & 3);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void findNeighbours(Block const &block, Neighbours &beyond,
-                                                  GatheredFace (&gathered)[4]) const
+  KOKKOS_FORCEINLINE_FUNCTION void findNeighbours(Block const &block, Neighbours &beyond, GatheredFaces &gathered) const
   {
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
-      beyond.stride[k] = column_stride;
       double const *velocity[2];
       if ((block.bits & RunBit << k) != 0)
       {
         int const face = stage.face_neighbour(block.first, k);
-        beyond.face[k] = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
+        double const *const cell = stage.at(0, face >> 2);
+        beyond.face[k] = cell + (FaceColumn + num_face_columns * (face & 3)) * column_stride;
+        double const *const from = stage.second_order ? cell : block.own;
         for (int i = 0; i < 2; ++i)
-          velocity[i] =
-              stage.at(velocityColumn(face, k, i, stage.second_order), stage.second_order ? face >> 2 : block.first);
+          velocity[i] = from + velocityColumn(face, k, i, stage.second_order) * column_stride;
       }
       else
       {
-        gatherFace(block, k, gathered[k]);
-        beyond.stride[k] = pack_width;
-        beyond.face[k] = gathered[k][0];
+        Block const copy = block; // what a call sees would leave its registers for all blocks
+        gatherFace(copy, k, gathered);
+        beyond.face[k] = &gathered[0][k * pack_width];
         for (int i = 0; i < 2; ++i)
-          velocity[i] = gathered[k][num_face_columns + 2 * i];
+          velocity[i] = &gathered[num_face_columns + 2 * i][k * pack_width];
       }
       for (int i = 0; i < 2; ++i)
       {
         beyond.velocity_x[k][i] = loadPack(velocity[i]);
-        beyond.velocity_y[k][i] = loadPack(velocity[i] + beyond.stride[k]);
+        beyond.velocity_y[k][i] = loadPack(velocity[i] + column_stride);
       }
     }
   }
@@ -215,36 +215,55 @@ struct SweptGatherFunctor
       visit(f);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION Exchanged exchange(Block const &block, Neighbours const &beyond) const
+  KOKKOS_FORCEINLINE_FUNCTION static bool leaves(Block const &block, int k)
+  {
+    return (block.bits & LeaveBit << k) != 0;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION static Exchanged exchange(Block const &block, Neighbours const &beyond)
   {
     Exchanged e;
     e.volume = own(block, MovedVolume);
     e.flow = 0.0;
-    for (Pack &change : e.change)
-      change = 0.0;
+    e.entering = 0;
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
       e.outflow[k] = 0.0;
       int const face = FaceColumn + num_face_columns * k;
-      if ((block.bits & LeaveBit << k) != 0)
+      if (leaves(block, k))
       {
-        Pack const leaves = own(block, face);
-        e.flow += leaves;
-        e.volume -= leaves;
+        Pack const volume = own(block, face);
+        e.flow += volume;
+        e.volume -= volume;
         e.outflow[k] = own(block, face + 1 + DensityField);
-        forFields([&](int f) { e.change[f] -= own(block, face + 1 + f); });
       }
       Pack const swept = beyond.load(k, 0);
-      auto const enters = swept > Pack(0.0);
-      if (!any(enters))
+      e.enters[k] = swept > Pack(0.0);
+      if (!any(e.enters[k]))
         continue;
+      e.entering |= 1 << k;
       e.flow += swept;
       e.volume += swept;
-      e.outflow[k] -= select(enters, beyond.load(k, 1 + DensityField), Pack(0.0));
-      forFields([&](int f) { e.change[f] += select(enters, beyond.load(k, 1 + f), Pack(0.0)); });
+      e.outflow[k] -= select(e.enters[k], beyond.load(k, 1 + DensityField), Pack(0.0));
     }
     return e;
+  }
+
+  /// What all fluxes bring of a field.
+  KOKKOS_FORCEINLINE_FUNCTION static Pack changeOf(int field, Block const &block, Neighbours const &beyond,
+                                                   Exchanged const &e)
+  {
+    Pack change = 0.0;
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
+    {
+      if (leaves(block, k))
+        change -= own(block, FaceColumn + num_face_columns * k + 1 + field);
+      if ((e.entering & 1 << k) != 0)
+        change += select(e.enters[k], beyond.load(k, 1 + field), Pack(0.0));
+    }
+    return change;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void copyPair(int pair) const
@@ -276,8 +295,8 @@ struct SweptGatherFunctor
     } while (left != 0u);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void newRecords(Block const &block, Exchanged const &e, Pack const &mass,
-                                              Pack const &mass1) const
+  KOKKOS_FORCEINLINE_FUNCTION void newRecords(Block const &block, Neighbours const &beyond, Exchanged const &e,
+                                              Pack const &mass, Pack const &mass1) const
   {
     Pack const moved_volume = own(block, MovedVolume);
     Pack const per_mass = 1.0 / mass1, per_volume = 1.0 / e.volume;
@@ -286,7 +305,7 @@ struct SweptGatherFunctor
         [&](int f)
         {
           bool const by_volume = f >= DeviatorXX;
-          q[f] = ((by_volume ? moved_volume : mass) * own(block, FieldColumn + f) + e.change[f]) *
+          q[f] = ((by_volume ? moved_volume : mass) * own(block, FieldColumn + f) + changeOf(f, block, beyond, e)) *
                  (by_volume ? per_volume : per_mass);
         });
     returnAllToYield(block, q);
@@ -406,7 +425,16 @@ struct SweptGatherFunctor
     }
     Pack const per_mass = 1.0 / mass;
     if (stage.aboutAxis())
-      advectShares(block, share, e.outflow, per_mass, beyond, v, gain);
+    {
+      Neighbours const around = beyond; // copies, as in findNeighbours
+      PackedCorners const velocity = v;
+      PackedCorners gained = gain;
+      Pack const part[4] = {share[0], share[1], share[2], share[3]};
+      Pack const out[4] = {e.outflow[0], e.outflow[1], e.outflow[2], e.outflow[3]};
+      Block const copy = block;
+      advectShares(copy, part, out, per_mass, around, velocity, gained);
+      gain = gained;
+    }
     else
     {
       advect(0.25 * (e.outflow[1] - e.outflow[3]), per_mass, {{0, 1, 3, 2}, 3, 1}, beyond, v, gain);
@@ -414,8 +442,8 @@ struct SweptGatherFunctor
     }
     for (int k = 0; k < 4; ++k)
     {
-      storePack(stage.at(IncrementColumn + 2 * k, block.first), gain.x[k]);
-      storePack(stage.at(IncrementColumn + 2 * k + 1, block.first), gain.y[k]);
+      storePack(block.own + (IncrementColumn + 2 * k) * column_stride, gain.x[k]);
+      storePack(block.own + (IncrementColumn + 2 * k + 1) * column_stride, gain.y[k]);
     }
     Pack const kinetic = 0.125 * mass * speed2;
     if (stage.all_owned && block.pure == all_lanes)
@@ -427,26 +455,42 @@ struct SweptGatherFunctor
     return sum;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION Block selectCells(int first) const
+  /// Lanes of pure cells; the others repeat the first of those, and their pairs stay as they are.
+  KOKKOS_FORCEINLINE_FUNCTION unsigned selectPure(int first, int (&from)[pack_width]) const
   {
-    Block block;
-    block.first = first;
-    block.pure = 0u;
-    block.bits = stage.blockOf(first);
+    unsigned pure = 0u;
     int const count = Math::min(pack_width, end - first);
     int lead = -1;
     for (int lane = 0; lane < count; ++lane)
       if ((stage.flags[first + lane] & PureCellBit) != 0)
       {
-        block.pure |= 1u << lane;
+        pure |= 1u << lane;
         lead = lead < 0 ? lane : lead;
       }
       else
         for (int pair = stage.first_pair[first + lane]; pair < stage.first_pair[first + lane + 1]; ++pair)
           copyPair(pair);
     for (int lane = 0; lane < pack_width; ++lane)
+      from[lane] = (pure >> lane & 1u) != 0u ? lane : Math::max(lead, 0);
+    return pure;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Block selectCells(int first) const
+  {
+    Block block;
+    block.first = first;
+    block.own = stage.at(0, first);
+    block.bits = stage.blockOf(first);
+    int from[pack_width]; // lane
+    for (int lane = 0; lane < pack_width; ++lane)
+      from[lane] = lane;
+    if ((block.bits & WholeBit) != 0)
+      block.pure = all_lanes;
+    else
+      block.pure = selectPure(first, from);
+    for (int lane = 0; lane < pack_width; ++lane)
     {
-      block.cell[lane] = first + ((block.pure >> lane & 1u) != 0u ? lane : Math::max(lead, 0));
+      block.cell[lane] = first + from[lane];
       block.pair[lane] = stage.first_pair[block.cell[lane]];
     }
     return block;
@@ -459,13 +503,13 @@ struct SweptGatherFunctor
       return;
     writeAhead(stage.record1, block.pair[0]);
     Neighbours beyond;
-    GatheredFace gathered[4];
+    GatheredFaces gathered;
     findNeighbours(block, beyond, gathered);
     Exchanged const e = exchange(block, beyond);
     Pack const mass = own(block, OldMass);
     Pack const mass1 = mass - ((e.outflow[0] + e.outflow[1]) + (e.outflow[2] + e.outflow[3]));
-    storePack(stage.at(NewMass, block.first), mass1);
-    newRecords(block, e, mass, mass1);
+    storePack(block.own + NewMass * column_stride, mass1);
+    newRecords(block, beyond, e, mass, mass1);
     kinetic += moveMomentum(block, beyond, e, mass);
   }
 };

@@ -185,7 +185,9 @@ struct SweptGeometryFunctor
       common &= flags[lane];
     }
     int const leaving = compute(first, cell, pair, flags, common);
-    stage.blockOf(first) = leaving | (lanes == all_lanes ? runsBeyond(first, common) : 0);
+    constexpr int all_neighbours = 15 * NeighbourBit;
+    stage.blockOf(first) = leaving | (lanes == all_lanes ? WholeBit | runsBeyond(first, common) : 0) |
+                           ((common & all_neighbours) == all_neighbours ? 0 : BoundaryBit);
   }
 
   /// RunBit of the faces beyond which the neighbours are a run of cells on a run of rows.

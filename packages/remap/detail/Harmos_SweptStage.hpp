@@ -54,7 +54,9 @@ enum SweptBlock : int
 {
   RunBit = 1,        // << k: beyond face k lies a run of cells, all pure and of the material on this side
   LeaveBit = 1 << 4, // << k: material leaves one of the cells through face k
-  all_leave_bits = 15 * LeaveBit
+  all_leave_bits = 15 * LeaveBit,
+  BoundaryBit = 1 << 8, // some cell has no neighbour beyond one of its faces
+  WholeBit = 1 << 9     // there are pack_width cells, all pure
 };
 
 /// Rows of a tile of SweptWindow, and what lies between its columns: a row's fall on different sets of the cache.
@@ -146,15 +148,10 @@ struct SweptStage
     return (cell & (tile_rows - 1)) + pack_width <= tile_rows;
   }
   KOKKOS_FORCEINLINE_FUNCTION int &blockOf(int cell) const { return block[(cell & mask) / pack_width]; }
-  /// Whether the mesh ends at a face of a pure cell, or at any, and the limiter minds it.
+  /// Whether the mesh ends at a face of a pure cell, and the limiter minds it.
   KOKKOS_FORCEINLINE_FUNCTION bool endsAt(int c, int face) const
   {
     return ranges != nullptr && pure_material[c] >= 0 && (flags[c] & NeighbourBit << face) == 0;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION bool isAtBoundary(int c) const
-  {
-    constexpr int all_neighbours = 15 * NeighbourBit;
-    return ranges != nullptr && pure_material[c] >= 0 && (flags[c] & all_neighbours) != all_neighbours;
   }
   /// Rows of fieldRanges for the fields of a record.
   KOKKOS_FORCEINLINE_FUNCTION double const *leastOf(int c) const { return ranges + 32 * pure_material[c]; }
