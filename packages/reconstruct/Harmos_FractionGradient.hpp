@@ -22,16 +22,33 @@ struct FractionDifference
   }
 };
 
+/// A function's values at a cell and, in packs, at its vertex neighbours. Those of usual cells are stored.
+struct NeighbourValues
+{
+  double own;
+  Pack stored[CellNeighbours::stored_packs];
+
+  template <class Function>
+  KOKKOS_INLINE_FUNCTION NeighbourValues(ReconstructionField const &field, CellComponents const &components,
+                                         CellNeighbours const &neighbours, Function const &f)
+      : own(f(field, components, components.cell))
+  {
+    for (int p = 0; p < Math::min(neighbours.packs(), CellNeighbours::stored_packs); ++p)
+      stored[p] = neighbours.values(f, p);
+  }
+};
+
 /// Gradient at a cell by weighted least squares over its vertex neighbours: minimises
 /// sum w (f_j - f_0 - g.(x_j - x_0))^2, w = 1 / |x_j - x_0|^2, x the centroids. In the cell's unit coordinates.
 ///
 /// Exact for linear functions on any mesh. Where the neighbours lie on one line (a strip of cells) the gradient along
-/// that line; zero without neighbours.
+/// that line; zero without neighbours. \param values Of f.
 KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
-                                                    CellNeighbours const &neighbours, FractionDifference const &f)
+                                                    CellNeighbours const &neighbours, FractionDifference const &f,
+                                                    NeighbourValues const &values)
 {
   Vector2 const centre = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, components.cell));
-  Pack const f0 = f(field, components, components.cell), third = 1.0 / 3.0;
+  Pack const f0 = values.own, third = 1.0 / 3.0;
   Pack xx = 0.0, xy = 0.0, yy = 0.0, x = 0.0, y = 0.0;
   NeighbourPack spare;
   for (int p = 0; p < neighbours.packs(); ++p)
@@ -45,7 +62,8 @@ KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &f
     Pack const dx = n.x[0] + scale * (lower * (ax + bx) + upper * (bx + cx)) - Pack(centre[0]);
     Pack const dy = n.y[0] + scale * (lower * (ay + by) + upper * (by + cy)) - Pack(centre[1]);
     Pack const w = n.present / (dx * dx + dy * dy);
-    Pack const wx = w * dx, wy = w * dy, difference = neighbours.values(f, p) - f0;
+    Pack const value = p < CellNeighbours::stored_packs ? values.stored[p] : neighbours.values(f, p);
+    Pack const wx = w * dx, wy = w * dy, difference = value - f0;
     xx += wx * dx;
     xy += wx * dy;
     yy += wy * dy;
@@ -61,6 +79,12 @@ KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &f
     return {(syy * b[0] - sxy * b[1]) / det, (sxx * b[1] - sxy * b[0]) / det};
   Vector2 const line = normalised(sxx > syy ? Vector2{sxx, sxy} : Vector2{sxy, syy});
   return (dot(line, b) / trace) * line;
+}
+
+KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
+                                                    CellNeighbours const &neighbours, FractionDifference const &f)
+{
+  return leastSquaresGradient(field, components, neighbours, f, NeighbourValues(field, components, neighbours, f));
 }
 
 namespace Detail

@@ -52,19 +52,21 @@ struct LineFitProblem
   bool set_is_inside;
   Pack stored[CellNeighbours::stored_packs]; // fractions of what shall lie inside the line; 0 where none is present
 
-  KOKKOS_INLINE_FUNCTION Pack gather(int p) const
+  KOKKOS_INLINE_FUNCTION Pack turned(Pack const &given, int p) const
   {
-    Pack const given = neighbours.values(set, p);
     return set_is_inside ? given : neighbours.present(p) - given;
   }
 
-  KOKKOS_INLINE_FUNCTION void store()
+  KOKKOS_INLINE_FUNCTION void store(NeighbourValues const &given)
   {
     for (int p = 0; p < Math::min(neighbours.packs(), CellNeighbours::stored_packs); ++p)
-      stored[p] = gather(p);
+      stored[p] = turned(given.stored[p], p);
   }
 
-  KOKKOS_INLINE_FUNCTION Pack fraction(int p) const { return p < CellNeighbours::stored_packs ? stored[p] : gather(p); }
+  KOKKOS_INLINE_FUNCTION Pack fraction(int p) const
+  {
+    return p < CellNeighbours::stored_packs ? stored[p] : turned(neighbours.values(set, p), p);
+  }
 };
 
 /// What a line leaves of quadrilaterals: the volume inside, and the rate at which it grows where the line turns.
@@ -262,12 +264,13 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
     for (int side = 0; side < sides; ++side)
     {
       ComponentSet const set = side == 0 ? inside : outside;
-      Vector2 const gradient = leastSquaresGradient(field, components, neighbours, {set, 0u});
+      NeighbourValues const given(field, components, neighbours, FractionDifference{set, 0u});
+      Vector2 const gradient = leastSquaresGradient(field, components, neighbours, {set, 0u}, given);
       if (norm(gradient) < 1e-13)
         continue;
       Vector2 const along_gradient = (side == 0 ? -1.0 : 1.0) * normalised(gradient);
       Detail::LineFitProblem problem{neighbours, polygon, inside_volume, outside_volume, {set, 0u}, side == 0, {}};
-      problem.store();
+      problem.store(given);
       LeastSquaresLine const line = Detail::fitAngle(problem, start == 0 ? along_gradient : fallback);
       converged = converged && line.converged;
       if (line.misfit < best.misfit)

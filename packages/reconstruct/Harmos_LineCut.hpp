@@ -59,27 +59,10 @@ struct WeightedSlab
   }
 };
 
-} // namespace Detail
-
-/// The chord of given normal that cuts a given volume off a convex polygon: V(d) = |polygon ∩ {n.x <= d}| = volume.
-///
-/// Closed form: between vertices, taken upwards along n on both chains at once, the chord's length w is linear and V
-/// quadratic, V = V_a + w_a h + (1/2) w' h^2; its root h = 2 (V - V_a) / (w_a + sqrt(w_a^2 + 2 w' (V - V_a))) has no
-/// cancellation. Heights count from the lowest vertex, so a small volume keeps its relative accuracy: cut the smaller
-/// part and take the other as the complement.
-///
-/// With a weight that is linear in x[0], V is a cubic between vertices: it is the integral of width times the weight at
-/// the chord's middle, a quadratic, for which Simpson's rule is exact; its root by Newton's method within a bracket.
-///
-/// \param polygon Convex, counter-clockwise, at least 3 vertices. [length]
-/// \param normal  Unit vector that leaves the part of given volume.
-/// \param volume  In [0, |polygon|], weighted. [length^2]
-/// \param weight  Of area elements, >= 0 on the polygon, at points as the polygon's.
-///
-/// Scardovelli & Zaleski, J. Comput. Phys. 164 (2000) 228-237 for squares; here any convex polygon.
-template <int Capacity>
-KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
-                                       AreaWeight const &weight = {})
+/// See lineCut. \tparam Uniform The weight is one.
+template <bool Uniform, int Capacity>
+KOKKOS_INLINE_FUNCTION LineCut weightedLineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
+                                               AreaWeight const &weight)
 {
   int const size = polygon.size;
   int low = 0;
@@ -114,7 +97,6 @@ KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2
   // `right` climbs counter-clockwise, `left` clockwise; both are at or below `level`, the vertices after them above it.
   int right = low, left = low;
   double level = 0.0, width = 0.0, below = 0.0;
-  bool const uniform = weight.uniform();
   bool converged = volume >= 0.0;
   for (int step = 0; step < 2 * size; ++step)
   {
@@ -123,7 +105,7 @@ KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2
     double const end_left = at(left, left_next, top), end_right = at(right, right_next, top);
     double const width_top = Math::max(0.0, end_left - end_right);
     Detail::WeightedSlab weighted;
-    if (!uniform)
+    if (!Uniform)
     {
       double const middle = 0.5 * (at(left, left_next, level) + at(right, right_next, level));
       double const middle_top = 0.5 * (end_left + end_right);
@@ -131,12 +113,12 @@ KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2
           Detail::WeightedSlab{top - level, width, width_top, weight.at(polygon[low] + level * normal + middle * along),
                                weight.at(polygon[low] + top * normal + middle_top * along)};
     }
-    double const slab = uniform ? 0.5 * (width + width_top) * (top - level) : weighted.volumeBelow(1.0);
+    double const slab = Uniform ? 0.5 * (width + width_top) * (top - level) : weighted.volumeBelow(1.0);
     if (below + slab >= volume || top >= highest)
     {
       double const missing = Math::min(Math::max(0.0, volume - below), slab);
       converged = converged && volume <= (below + slab) * (1.0 + 1e-13) + 1e-300;
-      if (missing > 0.0 && !uniform)
+      if (missing > 0.0 && !Uniform)
         level = Math::min(top, level + (top - level) * weighted.partOf(missing));
       else if (missing > 0.0)
       {
@@ -169,6 +151,32 @@ KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2
   cut.last = right;
   cut.converged = converged;
   return cut;
+}
+
+} // namespace Detail
+
+/// The chord of given normal that cuts a given volume off a convex polygon: V(d) = |polygon ∩ {n.x <= d}| = volume.
+///
+/// Closed form: between vertices, taken upwards along n on both chains at once, the chord's length w is linear and V
+/// quadratic, V = V_a + w_a h + (1/2) w' h^2; its root h = 2 (V - V_a) / (w_a + sqrt(w_a^2 + 2 w' (V - V_a))) has no
+/// cancellation. Heights count from the lowest vertex, so a small volume keeps its relative accuracy: cut the smaller
+/// part and take the other as the complement.
+///
+/// With a weight that is linear in x[0], V is a cubic between vertices: it is the integral of width times the weight at
+/// the chord's middle, a quadratic, for which Simpson's rule is exact; its root by Newton's method within a bracket.
+///
+/// \param polygon Convex, counter-clockwise, at least 3 vertices. [length]
+/// \param normal  Unit vector that leaves the part of given volume.
+/// \param volume  In [0, |polygon|], weighted. [length^2]
+/// \param weight  Of area elements, >= 0 on the polygon, at points as the polygon's.
+///
+/// Scardovelli & Zaleski, J. Comput. Phys. 164 (2000) 228-237 for squares; here any convex polygon.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
+                                       AreaWeight const &weight = {})
+{
+  return weight.uniform() ? Detail::weightedLineCut<true>(polygon, normal, volume, weight)
+                          : Detail::weightedLineCut<false>(polygon, normal, volume, weight);
 }
 
 /// Append a vertex that differs from the last one.

@@ -98,7 +98,8 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
   MomentOfFluidLine line{start, reference, 0.0, 0, true};
   for (int i = 0; i < max_iterations; ++i)
   {
-    line.normal = Math::cos(theta) * start + Math::sin(theta) * start_along;
+    if (i > 0)
+      line.normal = Math::cos(theta) * start + Math::sin(theta) * start_along;
     TurningCut const cut = turningCut(polygon, line.normal, volume, weight);
     Vector2 const miss = cut.centroid - reference;
     line.centroid = cut.centroid;

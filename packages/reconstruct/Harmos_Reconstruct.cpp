@@ -56,20 +56,8 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
 {
   CellStatus status{0.0, false, false, plan.unfinished > 0, -1};
   int const first = regions.cell_region(components.cell);
-  Region polygon = components.polygon;
-  ComponentSet rest = components.all();
-  for (int i = 0; i < plan.count; ++i)
+  auto const write = [&](Region const &part, int k)
   {
-    int const k = plan.component[i];
-    Region part = polygon;
-    rest &= ~(1u << k);
-    if (rest != 0u)
-    {
-      Division const division =
-          divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight);
-      part = division.inside;
-      polygon = division.outside;
-    }
     double const error = Math::fabs(components.volumeOfRegion(part) - components.volume[k]);
     if (!(error <= status.volume_error))
     {
@@ -78,11 +66,24 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
     }
     status.failed = status.failed || !(error <= volume_tolerance);
     if (components.material[k] == void_material)
-      continue;
+      return;
+    Region &region = regions.polygon(first + k);
+    region.size = part.size;
     for (int v = 0; v < part.size; ++v)
-      part[v] = components.fromUnit(part[v]);
-    regions.polygon(first + k) = part;
+      region[v] = components.fromUnit(part[v]);
+  };
+  Region polygon = components.polygon;
+  ComponentSet rest = components.all();
+  for (int i = 0; i + 1 < plan.count; ++i)
+  {
+    int const k = plan.component[i];
+    rest &= ~(1u << k);
+    Division const division =
+        divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight);
+    write(division.inside, k);
+    polygon = division.outside;
   }
+  write(polygon, plan.component[plan.count - 1]);
   return status;
 }
 
