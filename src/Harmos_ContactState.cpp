@@ -6,10 +6,31 @@
 namespace Harmos
 {
 
+namespace
+{
+
+/// Longitudinal wave speeds of the laws' reference states; 0: rigid. [m/s]
+std::vector<double> waveSpeeds(Scene const &scene)
+{
+  auto const impedance = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.constraint.impedance);
+  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.materials);
+  std::vector<double> speed;
+  for (std::size_t m = 0; m < impedance.extent(0); ++m)
+    speed.push_back(impedance(m) / material(m).density0);
+  return speed;
+}
+
+} // namespace
+
 void placeBonds(Scene const &scene, CycleState &s)
 {
   s.bonds = findBonds(scene.mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, s.bodies, scene.constraint,
                       *scene.exchange);
+  std::vector<double> const speed = waveSpeeds(scene);
+  for (Bond &bond : s.bonds)
+    for (int const material : {bond.material_a, bond.material_b})
+      if (speed[material] > 0.0)
+        bond.transit = Math::max(bond.transit, bond.cell_size / speed[material]);
   std::vector<Vector2> points;
   for (Bond const &bond : s.bonds)
     points.push_back(bond.point);

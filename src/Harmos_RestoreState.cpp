@@ -40,16 +40,24 @@ void restoreTracers(Run &run, std::vector<double> const &values)
                              std::to_string(run.deck.tracers.size()));
 }
 
-/// \param values Second material and state of each bond.
+/// \param values Of each bond: second material, broken, cell size, transit time, traction along and across n.
 void restoreBonds(Run &run, std::vector<double> const &tracers, std::vector<double> const &values)
 {
   CycleState &s = run.state;
   s.bond_tracers = tracersFrom(tracers);
-  if (values.size() != 2 * s.bond_tracers.size())
+  if (values.size() != 6 * s.bond_tracers.size())
     throw std::runtime_error("its bonds and their points differ in number");
   for (std::size_t i = 0; i < s.bond_tracers.size(); ++i)
-    s.bonds.push_back({s.bond_tracers[i].position, s.bond_tracers[i].material, static_cast<int>(values[2 * i]),
-                       values[2 * i + 1] != 0.0});
+  {
+    double const *const v = &values[6 * i];
+    s.bonds.push_back({s.bond_tracers[i].position,
+                       s.bond_tracers[i].material,
+                       static_cast<int>(v[0]),
+                       v[1] != 0.0,
+                       v[2],
+                       v[3],
+                       {v[4], v[5]}});
+  }
 }
 
 bool canBreak(PairInteraction const &interaction)

@@ -292,7 +292,8 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   scalars.arrays["bond_tracers"] = tracerValues(state.bond_tracers);
   std::vector<double> bonds;
   for (Bond const &b : state.bonds)
-    bonds.insert(bonds.end(), {static_cast<double>(b.material_b), b.broken ? 1.0 : 0.0});
+    bonds.insert(bonds.end(), {static_cast<double>(b.material_b), b.broken ? 1.0 : 0.0, b.cell_size, b.transit,
+                               b.traction[0], b.traction[1]});
   scalars.arrays["bonds"] = bonds;
   std::vector<double> force;
   for (ContactForce const &f : state.force)

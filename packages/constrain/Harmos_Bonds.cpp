@@ -158,13 +158,19 @@ View<double *[2]> nodalImpulses(NodalLoad const &load)
 
 } // namespace
 
-bool breaks(BondLoad const &load, BondStrength const &strength, double dt)
+void carry(BondLoad const &load, double dt, Bond &bond)
 {
-  if (!(load.length > 0.0))
-    return false;
-  double const normal = std::max(-load.normal, 0.0) / (dt * load.length), shear = load.tangential / (dt * load.length);
-  double const part_n = strength.tensile > 0.0 ? normal / strength.tensile : 0.0;
-  double const part_t = strength.shear > 0.0 ? shear / strength.shear : 0.0;
+  Vector2 now{0.0, 0.0};
+  if (load.length > 0.0)
+    now = (1.0 / (dt * load.length)) * Vector2{load.normal, load.tangential};
+  double const part = dt < bond.transit ? dt / bond.transit : 1.0;
+  bond.traction += part * (now - bond.traction);
+}
+
+bool breaks(Vector2 const &traction, BondStrength const &strength)
+{
+  double const part_n = strength.tensile > 0.0 ? std::max(-traction[0], 0.0) / strength.tensile : 0.0;
+  double const part_t = strength.shear > 0.0 ? traction[1] / strength.shear : 0.0;
   return part_n * part_n + part_t * part_t >= 1.0;
 }
 
@@ -186,7 +192,7 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
   std::vector<Bond> bonds;
   for (auto const &f : found)
   {
-    Bond const bond{{f[2], f[3]}, static_cast<int>(f[4]), static_cast<int>(f[5]), false};
+    Bond const bond{{f[2], f[3]}, static_cast<int>(f[4]), static_cast<int>(f[5]), false, f[6]};
     if (std::none_of(bonds.begin(), bonds.end(), [&](Bond const &o) { return near(o, bond, least_spacing * f[6]); }))
       bonds.push_back(bond);
   }
@@ -200,11 +206,13 @@ int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &optio
   auto const law = onHost(options.interaction);
   int count = 0;
   for (std::size_t i = 0; i < bonds.size(); ++i)
-    if (!bonds[i].broken && breaks(load[i], law(bonds[i].material_a, bonds[i].material_b).strength, dt))
-    {
-      bonds[i].broken = true;
-      ++count;
-    }
+  {
+    if (bonds[i].broken)
+      continue;
+    carry(load[i], dt, bonds[i]);
+    bonds[i].broken = breaks(bonds[i].traction, law(bonds[i].material_a, bonds[i].material_b).strength);
+    count += bonds[i].broken ? 1 : 0;
+  }
   return count;
 }
 

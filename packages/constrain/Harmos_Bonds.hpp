@@ -25,6 +25,9 @@ struct Bond
   Vector2 point = {0.0, 0.0};           // [length]
   int material_a = -1, material_b = -1; // a < b
   bool broken = false;                  // for good
+  double cell_size = 0.0;               // where it stood at the start [length]
+  double transit = 0.0;                 // a wave takes so long through a cell there; 0: not known [s]
+  Vector2 traction = {0.0, 0.0};        // along n, negative in tension, and across it: mean over about this time [Pa]
 };
 
 /// What the rows around a bond carry: sums over them.
@@ -41,9 +44,13 @@ constexpr double bond_reach = 2.0;
 /// Widest gap that a bond holds across; wider ones are void between two bodies. [cell sizes]
 constexpr double bond_gap = 0.1;
 
-/// True where (t_n / tensile)^2 + (t_t / shear)^2 >= 1 with the mean tractions t = load / (dt length), t_n in tension
-/// alone; a strength of 0 has no part.
-bool breaks(BondLoad const &load, BondStrength const &strength, double dt);
+/// traction += min(1, dt / transit) (load / (dt length) - traction). The impulse that stops the nodes beside a joint at
+/// an impact is set by their masses, whatever the step: over one step it is no traction, over the time in which a wave
+/// passes their cell it is rho c V.
+void carry(BondLoad const &load, double dt, Bond &bond);
+
+/// True where (t_n / tensile)^2 + (t_t / shear)^2 >= 1, t_n in tension alone; a strength of 0 has no part.
+bool breaks(Vector2 const &traction, BondStrength const &strength);
 
 } // namespace Harmos
 

@@ -128,7 +128,8 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
                             std::vector<RigidBody> const &bodies, ConstraintOptions const &options,
                             Exchange const &exchange);
 
-/// Break the bonds that carry more than their materials' bond bears (Harmos::breaks). \return How many broke.
+/// Load the bonds (Harmos::carry) and break those that carry more than their materials' bond bears (Harmos::breaks).
+/// \return How many broke.
 int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double dt,
                std::vector<Bond> &bonds);
 

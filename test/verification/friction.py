@@ -129,6 +129,36 @@ def test_a_joint_breaks_at_its_strength_whatever_its_angle_to_the_mesh():
         check("traction over shear strength, from one", abs(pulled(angle, True) - 1.0), 0.07)
 
 
+def parted(part, angle, shift, courant):
+    """Bonds that break, and bonds that carried, where two blocks (Poisson's ratio 0) bonded with a strength of `part` rho c V
+    start to move apart with V each: the joint bears rho c V at once, all along it, until the waves are back at 2 L / c."""
+    rho, wave, length, width = 1000.0, sqrt(3.0e6), 12.0, 8.0
+    c, s = cos(radians(angle)), sin(radians(angle))
+    strength, side = part * rho * wave, "{from: -23.0, to: 23.0, cells: 46}"
+
+    def at(x):
+        return f"[{shift[0] + x * c}, {shift[1] + x * s}]"
+
+    settings = {"run/end_time": 1.5 * length / wave, "numerics": f"{{courant: {courant}}}", "mesh/x": side, "mesh/y": side,
+                "interactions/glue": f"{{between: a, and: b, type: bonded, tensile_strength: {strength}, shear_strength: {strength}}}"}
+    for name, to in ("a", -1.0), ("b", 1.0):
+        settings |= {f"bodies/{name}/center": at(to * length / 2.0), f"bodies/{name}/size": f"[{length}, {width}]",
+                     f"bodies/{name}/angle": angle, f"bodies/{name}/velocity": f"[{to * c}, {to * s}]"}
+    for name, to in ("left", -1.0), ("right", 1.0):  # out of the way
+        settings |= {f"bodies/{name}/center": at(to * 19.9), f"bodies/{name}/angle": angle, f"bodies/{name}/velocity": "[0.0, 0.0]"}
+    r = harmos(DECKS / "pulled_bar.yaml", settings)
+    clean(r)
+    return r.summary["broken_bonds"]
+
+
+def test_a_joint_drawn_apart_at_once_bears_the_impedance_times_the_velocity():
+    for angle, shift in (0.0, (0.0, 0.0)), (0.0, (0.31, 0.17)), (20.0, (0.31, 0.17)):
+        for courant in 0.9, 0.5, 0.1:
+            broken = {part: parted(part, angle, shift, courant) for part in (0.95, 1.4)}
+            print(f"  {angle} degrees, shift {shift}, Courant number {courant}: bonds broken of {broken}")
+            assert broken[0.95] == 8 and broken[1.4] == 0, broken
+
+
 def test_a_block_below_the_friction_angle_stays():
     angle, coefficient = 20.0, 0.6
     assert coefficient > tan(radians(angle))

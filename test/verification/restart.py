@@ -79,7 +79,7 @@ def test_lagrangian():
 
 
 def test_bonds_that_break_before_and_after_the_stop():
-    whole, part = goes_on(HERE / "decks/peel.yaml", cycles=(33, 60))
+    whole, part = goes_on(HERE / "decks/peel.yaml", cycles=(80, 110))
     assert 0 < part.summary["broken_bonds"] < whole.summary["broken_bonds"]
     clean(whole, part)
 

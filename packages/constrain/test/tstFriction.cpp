@@ -230,13 +230,38 @@ TEST(Bonds, holdAcrossNoGapWiderThanATenthOfACell)
 TEST(Bonds, breakWhereTheSumOfSquaresReachesOne)
 {
   BondStrength const strength{3.0, 4.0};
-  double const dt = 0.5, length = 2.0; // traction = load
-  EXPECT_FALSE(breaks({-2.99, 0.0, length}, strength, dt));
-  EXPECT_TRUE(breaks({-3.01, 0.0, length}, strength, dt));
-  EXPECT_FALSE(breaks({99.0, 3.99, length}, strength, dt)); // pressure does not count
-  EXPECT_TRUE(breaks({0.0, -4.01, length}, strength, dt));
-  EXPECT_TRUE(breaks({-3.0 * 0.8, 4.0 * 0.61, length}, strength, dt));
-  EXPECT_FALSE(breaks({-3.0 * 0.8, 4.0 * 0.59, length}, strength, dt));
-  EXPECT_FALSE(breaks({-1e9, 0.0, length}, {0.0, 4.0}, dt)); // no limit in tension
-  EXPECT_FALSE(breaks({0.0, 0.0, 0.0}, strength, dt));       // carries nothing
+  EXPECT_FALSE(breaks({-2.99, 0.0}, strength));
+  EXPECT_TRUE(breaks({-3.01, 0.0}, strength));
+  EXPECT_FALSE(breaks({99.0, 3.99}, strength)); // pressure does not count
+  EXPECT_TRUE(breaks({0.0, -4.01}, strength));
+  EXPECT_TRUE(breaks({-3.0 * 0.8, 4.0 * 0.61}, strength));
+  EXPECT_FALSE(breaks({-3.0 * 0.8, 4.0 * 0.59}, strength));
+  EXPECT_FALSE(breaks({-1e9, 0.0}, {0.0, 4.0})); // no limit in tension
+}
+
+// The impulse m V that stops a row of nodes, m = rho h / 2, whatever the step; then rho c V in each.
+TEST(Bonds, carryTheMeanOverTheTimeInWhichAWavePassesACell)
+{
+  for (double const dt : {0.5, 0.1, 0.01})
+  {
+    Bond bond;
+    bond.transit = 1.0; // h / c with h = c = 1
+    double most = 0.0;
+    carry({-0.5, 0.0, 2.0}, dt, bond); // over a length of 2: rho V = 1/2
+    EXPECT_NEAR(bond.traction[0], -0.25, 1e-14);
+    for (double t = dt; t < 10.0; t += dt)
+    {
+      carry({-0.5 * 2.0 * dt, 0.25 * 2.0 * dt, 2.0}, dt, bond);
+      most = std::max(most, -bond.traction[0]);
+    }
+    EXPECT_NEAR(bond.traction[0], -0.5, 1e-4);
+    EXPECT_NEAR(bond.traction[1], 0.25, 1e-4);
+    EXPECT_LE(most, 0.5);
+  }
+  Bond unknown;
+  carry({-3.0, 2.0, 2.0}, 0.5, unknown); // at once
+  EXPECT_EQ(unknown.traction[0], -3.0);
+  EXPECT_EQ(unknown.traction[1], 2.0);
+  carry({}, 0.5, unknown);
+  EXPECT_EQ(unknown.traction[0], 0.0);
 }
