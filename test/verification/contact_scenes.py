@@ -87,7 +87,7 @@ def test_discs_exchange_momentum_along_the_line_of_their_centres():
           abs(degrees(atan2(impulse[1], impulse[0]) - atan2(line[1], line[0]))), 0.5)
     turned_by = max(abs(value - r.first("angular_momentum")) for value in r["angular_momentum"])
     check("change of angular momentum", turned_by / abs(r.first("angular_momentum")), 2e-3)
-    touch = next(t for t, p in zip(r["time"], r["left.momentum_x"]) if abs(p - scale) > 1e-6 * scale)
+    touch = next(t for t, p in zip(r["time"], r["left.momentum_x"]) if abs(p - scale) > 1e-10 * scale)
     check("first touch, of 0.62702 ms, in the time that a cell takes to close", abs(touch - 6.2702e-4) / (0.05 / 200.0), 0.05)
     contact = read_columns(r.directory / "contact.csv")
     force, width = max((hypot(x, y), a) for x, y, a in zip(contact["force_x"], contact["force_y"], contact["area"]))

@@ -126,6 +126,18 @@ def test_a_disc_rolls_on_a_contact_wall():
     clean(r)
 
 
+def test_an_elastic_disc_rolls_down_a_slope():
+    """Six cells over its radius: less than one lies on the floor, so that bumps of the facets brake it by some percent."""
+    soft = "{eos: stiffened, density: 1000.0, sound_speed: 60.0, strength: elastic, shear_modulus: 2.0e6}"
+    settings = on_slope(20.0)
+    disc = f"{{material: soft, shape: disc, center: {settings.pop('bodies/disc/center')}, radius: {R}}}"
+    r = harmos(DECK, {**settings, "materials/soft": soft, "bodies/disc": disc, "interactions/coefficient": 0.5,
+                      "mesh/x": "{from: -1.0, to: 1.0, cells: 60}", "mesh/y": "{from: -0.8, to: 0.7, cells: 45}"})
+    speed = hypot(r.last("disc.momentum_x"), r.last("disc.momentum_y")) / r.last("disc.mass")
+    check("missing part of the speed", abs(speed / (2.0 / 3.0 * G * sin(radians(20.0)) * r.last("time")) - 1.0), 0.12)
+    clean(r)
+
+
 def test_all_ranks_roll_alike():
     settings = {**on_slope(20.0), "run/end_time": 0.1}
     one = harmos(DECK, settings)

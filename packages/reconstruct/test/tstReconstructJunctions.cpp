@@ -181,3 +181,36 @@ TEST(ReconstructJunctions, fourParallelLayersAndVoid_areExactWhateverTheirNumber
     EXPECT_LT(misplacedVolume(scene, momentOfFluid(scene, 0.0), all), 1e-12) << i;
   }
 }
+
+// A round body comes up to a straight one across a wedge of void: the tip that has just entered the cell lies before
+// the wedge. As a sliver it was put behind it, where its line suits the neighbours better.
+//
+//   a \   / b
+//      \_/         the cell: b, a wedge of void at its left face, and the tip of a in its lower left corner
+TEST(ReconstructJunctions, tipBeforeAWedgeOfVoid_staysOnItsSide)
+{
+  Mesh const mesh = makeMesh(6, 6, 1.0);
+  for (double const enters : {0.002, 0.005, 0.01, 0.02})
+  {
+    Vector2 const tip{2.0 + enters, 2.0};
+    double const radius = 8.0, slope = 8.0 * Math::pi / 180.0;
+    Vector2 const centre = tip - radius * Vector2{std::cos(slope), std::sin(slope)};
+    Body round;
+    for (double degrees = -22.0; degrees <= 38.0; degrees += 5.0)
+      round.push_back(halfPlane(degrees, centre + radius * Vector2{std::cos(degrees * Math::pi / 180.0),
+                                                                   std::sin(degrees * Math::pi / 180.0)}));
+    Body const straight{halfPlane(190.0, {2.104, 2.0})};
+    Scene const scene = paint(mesh, bodies({round, straight}));
+    FilledRegions const regions = momentOfFluid(scene, 1e-3);
+    auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
+    auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
+    auto const centroid = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.state.centroid);
+    auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
+    int const cell = 2 * 6 + 2;
+    ASSERT_EQ(offset(cell + 1) - offset(cell), 2);
+    Region const &region = polygon(first(cell));
+    Vector2 const found = region[0] + moments<1>(region, region[0]).centroid();
+    EXPECT_NEAR(found[0], centroid(offset(cell), 0), 0.01) << enters;
+    EXPECT_NEAR(found[1], centroid(offset(cell), 1), 0.03) << enters;
+  }
+}
