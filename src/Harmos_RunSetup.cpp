@@ -128,7 +128,10 @@ void refuseAbsurdSpeeds(Run const &run)
     return key + text;
   };
   std::string cause;
-  for (int pair = 0; cause.empty() && pair < s.pairs.num_pairs; ++pair)
+  bool absurd = false;
+  for (std::size_t dof = 0; dof < velocity.extent(0); ++dof)
+    absurd = absurd || !(Math::fabs(velocity(dof, 0)) <= 0.5 * most && Math::fabs(velocity(dof, 1)) <= 0.5 * most);
+  for (int pair = 0; absurd && cause.empty() && pair < s.pairs.num_pairs; ++pair)
     for (int k = 0; k < 4; ++k)
     {
       double const speed = std::hypot(velocity(dof_node(pair, k), 0), velocity(dof_node(pair, k), 1));

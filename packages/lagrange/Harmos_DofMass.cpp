@@ -41,14 +41,19 @@ void computeNodeAltitudes(Mesh const &mesh, LagrangeWork &work)
   work.largest_cell = largestCellVolume(mesh);
   grow(work.node_altitude, "Harmos::lagrange::node_altitude", mesh.num_nodes);
   auto const node_altitude = work.node_altitude;
+  View<double *> const altitude(
+      Kokkos::view_alloc(std::string("Harmos::lagrange::cell_altitude"), Kokkos::WithoutInitializing), mesh.num_cells);
+  Kokkos::parallel_for(
+      "Harmos::lagrange::cellAltitudes", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell) { altitude(cell) = detail::leastAltitude(detail::cellCorners(mesh, cell)); });
   Kokkos::parallel_for(
       "Harmos::lagrange::nodeAltitudes", RangePolicy(0, mesh.num_nodes), KOKKOS_LAMBDA(int node) {
         int const first = mesh.node_cell.offset(node);
         double least = 0.0;
         for (int i = first; i < mesh.node_cell.offset(node + 1); ++i)
         {
-          double const altitude = detail::leastAltitude(detail::cellCorners(mesh, mesh.node_cell.item(i) / 4));
-          least = i == first ? altitude : Math::min(least, altitude);
+          double const of_cell = altitude(mesh.node_cell.item(i) / 4);
+          least = i == first ? of_cell : Math::min(least, of_cell);
         }
         node_altitude(node) = least;
       });

@@ -126,6 +126,40 @@ std::vector<Filling> fillingsOf(Quadrilateral const &cell, Geometry geometry, st
   return fillings;
 }
 
+FillingRows::FillingRows(std::size_t cells)
+{
+  cell.reserve(cells);
+  material.reserve(cells);
+  fraction.reserve(cells);
+  centroid.reserve(cells);
+  first.reserve(cells + 1);
+  body.reserve(cells);
+  volume.reserve(cells);
+  first.push_back(0);
+}
+
+void FillingRows::push(int in_cell, Filling const &filling)
+{
+  cell.push_back(in_cell);
+  material.push_back(filling.material);
+  fraction.push_back(filling.fraction);
+  centroid.push_back(filling.centroid);
+  body.insert(body.end(), filling.body.begin(), filling.body.end());
+  volume.insert(volume.end(), filling.volume.begin(), filling.volume.end());
+  first.push_back(static_cast<int>(body.size()));
+}
+
+void FillingRows::pushWhole(int in_cell, int of_material, Vector2 const &corner, Part const &part)
+{
+  cell.push_back(in_cell);
+  material.push_back(of_material);
+  fraction.push_back(1.0);
+  centroid.push_back(corner + part.moments.centroid());
+  body.push_back(part.body);
+  volume.push_back(part.moments.volume());
+  first.push_back(static_cast<int>(body.size()));
+}
+
 View<int *> offsetsOf(std::vector<int> const &cell, int num_cells)
 {
   View<int *> offset("Harmos::paint::offset", num_cells + 1);

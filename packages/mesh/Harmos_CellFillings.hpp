@@ -5,7 +5,6 @@
 #include <Harmos_Mesh.hpp>
 #include <Harmos_Shape.hpp>
 
-#include <utility>
 #include <vector>
 
 /// What shapes fill of cells, as the painter (Harmos_Paint.hpp) gathers it. Host values.
@@ -27,6 +26,7 @@ struct Part
 {
   int body;
   Moments<1> moments;
+  bool whole; // those of the whole cell
 };
 
 /// What one material fills of a cell.
@@ -49,28 +49,40 @@ std::vector<Filling> fillingsOf(Quadrilateral const &cell, Geometry geometry, st
 /// Fillings of some cells, in order.
 struct FillingRows
 {
-  std::vector<int> cell; // of each filling
-  std::vector<Filling> filling;
+  std::vector<int> cell, material; // of each filling
+  std::vector<double> fraction;
+  std::vector<Vector2> centroid;
+  std::vector<int> first;     // of its bodies, and their number
+  std::vector<int> body;      // one after the other
+  std::vector<double> volume; // of those
+  explicit FillingRows(std::size_t cells);
+
+  void push(int in_cell, Filling const &filling);
+  /// A cell that one body fills.
+  void pushWhole(int in_cell, int of_material, Vector2 const &corner, Part const &part);
 };
 
-/// Calls parts_of(quadrilateral, local cell) for every candidate.
+/// Calls parts_of(quadrilateral, local cell, parts) for every candidate; it appends the parts.
 template <class PartsOf>
 FillingRows fillCells(CandidateCells const &candidates, Geometry geometry, std::vector<int> const &material_of_body,
                       PartsOf parts_of)
 {
   auto const cell = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.cell);
   auto const corner = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), candidates.corner);
-  FillingRows rows;
+  FillingRows rows(cell.extent(0));
+  std::vector<Part> parts;
   for (std::size_t i = 0; i < cell.extent(0); ++i)
   {
     Quadrilateral q;
     for (int k = 0; k < 4; ++k)
       q.push({corner(i, k, 0), corner(i, k, 1)});
-    for (Filling &filling : fillingsOf(q, geometry, parts_of(q, cell(i)), material_of_body))
-    {
-      rows.cell.push_back(cell(i));
-      rows.filling.push_back(std::move(filling));
-    }
+    parts.clear();
+    parts_of(q, cell(i), parts);
+    if (parts.size() == 1 && parts[0].whole)
+      rows.pushWhole(cell(i), material_of_body[parts[0].body], q[0], parts[0]);
+    else
+      for (Filling const &filling : fillingsOf(q, geometry, parts, material_of_body))
+        rows.push(cell(i), filling);
   }
   return rows;
 }

@@ -94,6 +94,20 @@ Selection select(HostMesh const &whole, std::vector<int> depth)
   return s;
 }
 
+/// Put a number into an ascending row, once.
+void insertOnce(std::vector<int> &row, int number)
+{
+  std::size_t at = row.size();
+  while (at > 0 && row[at - 1] > number)
+    --at;
+  if (at > 0 && row[at - 1] == number)
+    return;
+  row.push_back(number);
+  for (std::size_t i = row.size() - 1; i > at; --i)
+    row[i] = row[i - 1];
+  row[at] = number;
+}
+
 void setCells(Mesh &mesh, HostMesh const &whole, HostRows const &node_cell, Selection const &s)
 {
   std::size_t const num_cells = s.cell.size();
@@ -101,7 +115,9 @@ void setCells(Mesh &mesh, HostMesh const &whole, HostRows const &node_cell, Sele
   std::vector<int> depth(num_cells);
   std::vector<long long> global(num_cells);
   HostRows around;
-  around.offset.assign(1, 0);
+  around.offset.reserve(num_cells + 1);
+  around.offset.push_back(0);
+  around.item.reserve(8 * num_cells);
   std::vector<int> row;
   for (std::size_t i = 0; i < num_cells; ++i)
   {
@@ -121,11 +137,10 @@ void setCells(Mesh &mesh, HostMesh const &whole, HostRows const &node_cell, Sele
       {
         int const near = s.local_cell[node_cell.item[j] / 4];
         if (near >= 0 && near != static_cast<int>(i))
-          row.push_back(near);
+          insertOnce(row, near);
       }
     }
-    std::sort(row.begin(), row.end());
-    around.item.insert(around.item.end(), row.begin(), std::unique(row.begin(), row.end()));
+    around.item.insert(around.item.end(), row.begin(), row.end());
     around.offset.push_back(static_cast<int>(around.item.size()));
   }
   mesh.num_cells = static_cast<int>(num_cells);

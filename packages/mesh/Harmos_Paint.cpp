@@ -68,17 +68,37 @@ struct BodyPainter
     return region.moments(geometry).volume();
   }
 
-  std::vector<Part> parts(Quadrilateral const &cell, long long global_cell) const
+  /// Append the parts of a cell that the bodies fill.
+  void parts(Quadrilateral const &cell, long long global_cell, std::vector<Part> &result) const
   {
     Box const of_cell = boundingBox(cell);
+    int count = 0, only = -1;
+    bool inside = false;
+    for (int i = 0; i < static_cast<int>(bodies.size()); ++i)
+    {
+      CellPosition const position = box[i].meets(of_cell) ? bodies[i].shape.position(cell) : CellPosition::Outside;
+      if (position == CellPosition::Outside)
+        continue;
+      ++count;
+      only = i;
+      inside = position == CellPosition::Inside;
+    }
+    if (count == 1 && inside)
+      result.push_back({only, moments<1>(cell, cell[0], areaWeight(geometry, cell[0])), true});
+    else if (count > 0)
+      sharedParts(cell, of_cell, global_cell, result);
+  }
+
+  /// The same where an outline crosses the cell, or several bodies meet it.
+  void sharedParts(Quadrilateral const &cell, Box const &of_cell, long long global_cell,
+                   std::vector<Part> &result) const
+  {
     std::vector<int> present;
     for (int i = 0; i < static_cast<int>(bodies.size()); ++i)
       if (box[i].meets(of_cell) && bodies[i].shape.position(cell) != CellPosition::Outside)
         present.push_back(i);
-
-    std::vector<Part> result;
     for (int const i : present)
-      result.push_back({i, remaining(cell, i, present)});
+      result.push_back({i, remaining(cell, i, present), false});
 
     double const allowed = overlap_tolerance * volume(cell, geometry);
     for (std::size_t a = 0; a < result.size(); ++a)
@@ -98,7 +118,6 @@ struct BodyPainter
                                    shortText(shared / volume(cell, geometry)) +
                                    " of the cell (more than 1e-9), and the later one is not cut from the earlier");
       }
-    return result;
   }
 };
 
@@ -164,7 +183,7 @@ RigidFillings fillRigid(CandidateCells const &candidates, Geometry geometry, std
     }
     std::vector<Part> parts;
     for (int const i : present)
-      parts.push_back({i, shapes[i].intersectionMoments(q, geometry)});
+      parts.push_back({i, shapes[i].intersectionMoments(q, geometry), false});
     for (Filling const &filling : fillingsOf(q, geometry, parts, materials))
       rows.push(cell(c), filling.material, filling.fraction, filling.centroid);
   }
@@ -182,12 +201,11 @@ Painting paint(Mesh const &mesh, std::vector<Body> const &bodies)
     material_of_body.push_back(body.material);
   auto const global = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_global);
   FillingRows const rows = fillCells(candidateCells(mesh, painter.box), mesh.geometry, material_of_body,
-                                     [&](Quadrilateral const &q, int cell) { return painter.parts(q, global(cell)); });
+                                     [&](Quadrilateral const &q, int cell, std::vector<Part> &parts)
+                                     { painter.parts(q, global(cell), parts); });
 
-  int const num_pairs = static_cast<int>(rows.filling.size());
-  std::size_t num_items = 0;
-  for (Filling const &filling : rows.filling)
-    num_items += filling.body.size();
+  int const num_pairs = static_cast<int>(rows.cell.size());
+  std::size_t const num_items = rows.body.size();
   Painting painting;
   CellMaterialPairs &pairs = painting.pairs;
   pairs.num_pairs = num_pairs;
@@ -210,37 +228,35 @@ Painting paint(Mesh const &mesh, std::vector<Body> const &bodies)
   auto const body_mass = Kokkos::create_mirror_view(painting.body_mass);
   Kokkos::deep_copy(record, 0.0);
 
-  int next = 0;
   offset(0) = 0;
   for (int pair = 0; pair < num_pairs; ++pair)
   {
-    Filling const &filling = rows.filling[pair];
-    material(pair) = filling.material;
+    material(pair) = rows.material[pair];
     cell(pair) = rows.cell[pair];
     for (int d = 0; d < 2; ++d)
-      centroid(pair, d) = filling.centroid[d];
+      centroid(pair, d) = rows.centroid[pair][d];
     double clipped_volume = 0.0;
-    for (double const volume : filling.volume)
-      clipped_volume += volume;
+    for (int b = rows.first[pair]; b < rows.first[pair + 1]; ++b)
+      clipped_volume += rows.volume[b];
     // Normalised fractions decide: the bodies share the pair's volume as they were clipped.
-    double const share = filling.fraction * cell_volume(cell(pair)) / clipped_volume;
+    double const share = rows.fraction[pair] * cell_volume(cell(pair)) / clipped_volume;
     double mass = 0.0;
     double specific_volume = 0.0;
     double internal_energy = 0.0;
-    for (std::size_t b = 0; b < filling.body.size(); ++b, ++next)
+    for (int b = rows.first[pair]; b < rows.first[pair + 1]; ++b)
     {
-      Body const &body = bodies[filling.body[b]];
-      double const m = body.density * (filling.volume[b] * share);
-      item(next) = filling.body[b];
-      body_mass(next) = m;
+      Body const &body = bodies[rows.body[b]];
+      double const m = body.density * (rows.volume[b] * share);
+      item(b) = rows.body[b];
+      body_mass(b) = m;
       mass += m;
       // Running means: exact where all bodies have the same state.
       specific_volume += m / mass * (body.specific_volume - specific_volume);
       internal_energy += m / mass * (body.internal_energy - internal_energy);
     }
-    offset(pair + 1) = next;
+    offset(pair + 1) = rows.first[pair + 1];
     record(pair, Mass) = mass;
-    record(pair, VolumeFraction) = filling.fraction;
+    record(pair, VolumeFraction) = rows.fraction[pair];
     record(pair, SpecificVolume) = specific_volume;
     record(pair, InternalEnergy) = internal_energy;
   }
