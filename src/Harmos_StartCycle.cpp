@@ -81,6 +81,17 @@ void checkState(Scene const &scene, CycleState const &s)
               std::to_string(scene.materials.extent(0)) + ", the number of materials");
 }
 
+/// Rows on short segments balance the stress of what acts over what it fills.
+std::vector<ShortSegments> shortSegments(Scene const &scene, std::vector<Material> const &laws)
+{
+  std::vector<ShortSegments> kept;
+  for (Material const &law : laws)
+    kept.push_back(!actsOnFilledRegion(scene.lagrange.cut_cell_stress, law) ? ShortSegments::Dropped
+                   : actsInFullCells(scene.lagrange.cut_cell_stress, law)   ? ShortSegments::KeptInFullCells
+                                                                            : ShortSegments::Kept);
+  return kept;
+}
+
 } // namespace
 
 ReconstructionReport startCycle(Scene &scene, CycleState &s)
@@ -91,13 +102,8 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   std::vector<Material> const laws(materials.data(), materials.data() + materials.extent(0));
   if (scene.constraint.impedance.extent(0) == 0)
     scene.constraint.impedance = deviceCopy("impedance", impedances(laws));
-  if (scene.constraint.whole_segment.extent(0) == 0 && scene.kinematics == Kinematics::Xfem)
-  {
-    std::vector<int> whole;
-    for (Material const &law : laws)
-      whole.push_back(actsOnFilledRegion(scene.lagrange.cut_cell_stress, law) ? 1 : 0);
-    scene.constraint.whole_segment = deviceCopy("whole_segment", whole);
-  }
+  if (scene.constraint.short_segments.extent(0) == 0 && scene.kinematics == Kinematics::Xfem)
+    scene.constraint.short_segments = deviceCopy("short_segments", shortSegments(scene, laws));
   if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)
     scene.subzone_fraction = subzoneFractions(scene.mesh);
   bool can_fail = false;

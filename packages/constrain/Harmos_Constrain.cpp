@@ -109,8 +109,8 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
     return {};
   SegmentBins const bins = binSegments(segments, largest);
   View<RayHit *> const hit = castRays(mesh, segments, bins);
-  ContactRows rows =
-      buildContactRows(mesh, pairs, dof_nodes, segments, hit, bins, conditions, table, bonds, options, before, dt);
+  ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, regions, segments, hit, bins, conditions, table, bonds,
+                                      options, before, dt);
   OutlineRows between;
   if (table.outlined)
     between = findOutlineRows(mesh, segments, conditions, outline, predicted, options, exchange, largest, dt);

@@ -58,21 +58,29 @@ KOKKOS_INLINE_FUNCTION bool sharesMultipliers(Placement placement)
   return placement == Placement::VitalVertices || placement == Placement::Mortar;
 }
 
+/// Whether segments of a material inside cells carry rows however short they are, in balance with its stress.
+enum class ShortSegments
+{
+  Dropped,
+  Kept,
+  KeptInFullCells // the shortest with a row goes down to nothing with the fullness of the cell
+};
+
 struct ConstraintOptions
 {
   ConstraintMethod method = ConstraintMethod::Multipliers;
   Placement placement = Placement::Midpoint;
-  double penalty = 1.0;      // Penalty, Nitsche: traction over impedance times velocity
-  View<int *> whole_segment; // materials: 1: its tractions act over whole segments; extent 0: all at their points
-  View<double *> impedance;  // materials: density times longitudinal wave speed [kg/(m^2 s)], 0: rigid
+  double penalty = 1.0;     // Penalty, Nitsche: traction over impedance times velocity
+  View<double *> impedance; // materials: density times longitudinal wave speed [kg/(m^2 s)], 0: rigid
   MultiplierMethod solver = MultiplierMethod::ProjectedNewton;
   bool warm_start = false; // ProjectedNewton, rows with multipliers of their own: from the last cycle's forces
   View<PairInteraction **> interaction; // (materials, materials), symmetric
   double tolerance = 1e-8;              // of max(largest predicted |G v|, 1e-6 speed_scale)
   int max_iterations = 1000;
-  double speed_scale = 0.0;      // of the scene [m/s]
-  double shortest_segment = 0.1; // of the cell size; shorter segments carry no row
-  double exposed_face = 0.5;     // least exposed part of a cell face that carries a row
+  double speed_scale = 0.0;             // of the scene [m/s]
+  double shortest_segment = 0.1;        // of the cell size; shorter segments carry no row but by short_segments
+  View<ShortSegments *> short_segments; // materials; extent 0: all Dropped
+  double exposed_face = 0.5;            // least exposed part of a cell face that carries a row
 };
 
 } // namespace Harmos

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactRows.hpp>
 #include <Harmos_NormalFit.hpp>
+#include <Harmos_SegmentBearing.hpp>
 
 #include <stdexcept>
 
@@ -186,6 +187,7 @@ struct RowBuilder
   Mesh mesh;
   CellMaterialPairs pairs;
   NodeMaterialPairs dof_nodes;
+  SegmentBearing bearing;
   View<InterfaceSegment *> segment;
   View<RayHit *> hit;
   FacingSegments facing;
@@ -197,18 +199,6 @@ struct RowBuilder
   int num_segments;
   Motion before;
   double dt;
-
-  KOKKOS_INLINE_FUNCTION bool spreads(int material) const
-  {
-    return material >= 0 && options.whole_segment.extent(0) > 0 && options.whole_segment(material) == 1;
-  }
-
-  /// Whether the traction of segment a acts over all of it: both sides of an interface inside a cell end where it does.
-  KOKKOS_INLINE_FUNCTION bool bearsWhole(InterfaceSegment const &a, int facing_it) const
-  {
-    InterfaceSegment const &b = segment(facing_it);
-    return a.parts == 1 && a.face < 0 && b.cell == a.cell && (spreads(a.material) || spreads(b.material));
-  }
 
   KOKKOS_INLINE_FUNCTION int bodyOf(int material) const { return material < 0 ? -2 : bodies.of_material(material); }
 
@@ -231,10 +221,11 @@ struct RowBuilder
   {
     InterfaceSegment const &a = segment(i);
     if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0 ||
-        (!bearsWhole(a, hit(i).segment) && a.parts * a.length < options.shortest_segment * a.cell_size) ||
         (a.face >= 0 && a.exposed < options.exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
+    if (a.parts * a.length < bearing.shortest(a, b) * a.cell_size)
+      return false;
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
         meetByOutline(a, b))
       return false;
@@ -424,7 +415,7 @@ struct RowBuilder
     row.gap = rows.hit[half].gap;
     row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
     setInteraction(b, row);
-    bool const whole = bearsWhole(a, rows.hit[half].segment);
+    bool const whole = bearing.bearsWhole(a, b);
     Vector2 const reach = (whole ? 0.5 * a.length : 0.0) * Vector2{-a.normal[1], a.normal[0]};
     Vector2 const middle = whole ? a.midpoint : a.point;
     fillSide(a, middle, reach, row.body_a, row.dof_a, row.weight_a);
@@ -436,14 +427,15 @@ struct RowBuilder
 } // namespace
 
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
-                             InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
-                             BoundaryConditions const &conditions, BodyTable const &bodies,
+                             FilledRegions const &regions, InterfaceSegments const &segments, View<RayHit *> const &hit,
+                             SegmentBins const &bins, BoundaryConditions const &conditions, BodyTable const &bodies,
                              std::vector<Bond> const &bonds, ConstraintOptions const &options, Motion const &before,
                              double dt)
 {
   RowBuilder const builder{mesh,
                            pairs,
                            dof_nodes,
+                           {mesh, pairs, regions, options.short_segments, options.shortest_segment},
                            segments.segment,
                            hit,
                            facingSegments(segments.segment, hit, bins),

@@ -69,13 +69,17 @@ BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodie
 /// contact was off by half.
 ///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
-/// on segments shorter than shortest_segment, on cell faces exposed by less than exposed_face, between driven bodies,
-/// between sides that share their dof nodes, and where the segment's own normal is over 45 degrees off the fitted one.
+/// on segments shorter than shortest_segment (but where short_segments keeps them), on cell faces exposed by less than
+/// exposed_face, between driven bodies, between sides that share their dof nodes, and where the segment's own normal is
+/// over 45 degrees off the fitted one.
+///
+/// Where short_segments keeps them for the material of one side, and both sides end in one cell, the weights of the row
+/// are the means of the shape functions over the segment, as its traction acts on the nodes.
 ///
 /// \param before v^{n-1/2} \param dt Of the step; 0: no motion is known.
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
-                             InterfaceSegments const &segments, View<RayHit *> const &hit, SegmentBins const &bins,
-                             BoundaryConditions const &conditions, BodyTable const &bodies,
+                             FilledRegions const &regions, InterfaceSegments const &segments, View<RayHit *> const &hit,
+                             SegmentBins const &bins, BoundaryConditions const &conditions, BodyTable const &bodies,
                              std::vector<Bond> const &bonds, ConstraintOptions const &options,
                              Motion const &before = {}, double dt = 0.0);
 

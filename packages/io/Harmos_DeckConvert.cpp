@@ -243,6 +243,7 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.lagrange.subzonal_pressure = list.get<double>("subzonal_pressure");
   std::string const where = list.get<std::string>("cut_cell_stress");
   deck.lagrange.cut_cell_stress = where == "cell mean"        ? CutCellStress::CellMean
+                                  : where == "full cells"     ? CutCellStress::FullCells
                                   : where == "filled regions" ? CutCellStress::FilledRegions
                                                               : CutCellStress::Fluids;
   check.require(where == "fluids" || deck.kinematics == Kinematics::Xfem, "numerics/cut_cell_stress",

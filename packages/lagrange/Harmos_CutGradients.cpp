@@ -3,6 +3,7 @@
 
 #include <Harmos_AreaWeight.hpp>
 #include <Harmos_Bilinear.hpp>
+#include <Harmos_Fullness.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -55,7 +56,7 @@ struct CutGradientFunctor
   CutCellStress where;
   View<double *[12]> gradient;
 
-  KOKKOS_INLINE_FUNCTION void store(int row, int cell, Quadrilateral const &q) const
+  KOKKOS_INLINE_FUNCTION void store(int row, int cell, Quadrilateral const &q, double share) const
   {
     constexpr double least_area = 1e-13; // of the cell
     Region const &region = regions.polygon(row);
@@ -83,9 +84,9 @@ struct CutGradientFunctor
     {
       double const mean_x = ring ? about.x[k] / about.volume : mean[k][0] / plane.area;
       double const mean_y = ring ? about.y[k] / about.volume : mean[k][1] / plane.area;
-      gradient(row, 3 * k + CutGradientX) = keeps_mean ? 0.0 : slope[k][0] - mean_x;
-      gradient(row, 3 * k + CutGradientY) = keeps_mean ? 0.0 : slope[k][1] - mean_y;
-      gradient(row, 3 * k + CutHoop) = ring && !thin ? hoop[k] - about.hoop[k] / about.volume : 0.0;
+      gradient(row, 3 * k + CutGradientX) = keeps_mean ? 0.0 : share * (slope[k][0] - mean_x);
+      gradient(row, 3 * k + CutGradientY) = keeps_mean ? 0.0 : share * (slope[k][1] - mean_y);
+      gradient(row, 3 * k + CutHoop) = ring && !thin ? share * (hoop[k] - about.hoop[k] / about.volume) : 0.0;
     }
   }
 
@@ -94,9 +95,13 @@ struct CutGradientFunctor
     int const cell = regions.mixed_cell(i);
     Quadrilateral const q = cellQuadrilateral(mesh, cell);
     int const first = regions.cell_region(cell), count = pairs.offset(cell + 1) - pairs.offset(cell);
+    double const full = where == CutCellStress::FullCells ? fullness(mesh, pairs, regions, cell) : 1.0;
     for (int k = 0; k < count; ++k)
-      if (actsOnFilledRegion(where, materials(pairs.material(pairs.offset(cell) + k))))
-        store(first + k, cell, q);
+    {
+      Material const &material = materials(pairs.material(pairs.offset(cell) + k));
+      if (actsOnFilledRegion(where, material))
+        store(first + k, cell, q, actsInFullCells(where, material) ? full : 1.0);
+    }
   }
 };
 

@@ -13,14 +13,21 @@ enum class CutCellStress
 {
   CellMean,     // along the mean gradients of its cell
   Fluids,       // of materials without strength over what they fill, of the others along their cell's means
+  FullCells,    // of fluids over what they fill, of solids as far as the cell is full (fullness)
   FilledRegions // over what each material fills
 };
 
-/// Whether a material's stress acts over what it fills; rigid ones have none.
+/// Whether a material's stress acts over what it fills, somewhere at least; rigid ones have none.
 KOKKOS_INLINE_FUNCTION bool actsOnFilledRegion(CutCellStress where, Material const &material)
 {
-  return material.rigid_body < 0 && (where == CutCellStress::FilledRegions ||
+  return material.rigid_body < 0 && (where == CutCellStress::FilledRegions || where == CutCellStress::FullCells ||
                                      (where == CutCellStress::Fluids && material.strength == StrengthKind::None));
+}
+
+/// Whether it does so in full cells alone.
+KOKKOS_INLINE_FUNCTION bool actsInFullCells(CutCellStress where, Material const &material)
+{
+  return where == CutCellStress::FullCells && material.strength != StrengthKind::None;
 }
 
 /// Columns of CutGradients::gradient: three a corner I.
@@ -46,6 +53,9 @@ struct CutGradients
 /// O(p h) against the tractions on the segments, which knows nothing of h: gases at rest would stream. The mean over
 /// the region is the gradient at its centroid (r-weighted about an axis), exactly on parallelograms; the hoop's
 /// integral of N_I over the region is exact there too. Sum over I: zero, and one over the centroid's radius.
+///
+/// In full cells alone (actsInFullCells) what is stored is the fullness w of the cell times that: the gradient is
+/// (1 - w) times the cell's mean and w times the region's, continuous where void opens.
 ///
 /// \param cut Out. Regions whose area is not above 1e-13 of the cell's take the gradient at the mean of their vertices,
 ///            about an axis the cell's mean.

@@ -47,6 +47,10 @@ def test_squeezed_sliding_block():
     clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, SQUEEZE)))
 
 
+def test_stress_in_full_cells():
+    clean(compare("disc_through_plate/deck.yaml", {"numerics/cut_cell_stress": "full cells"}))
+
+
 def test_breaking_bonds():
     r = compare(HERE / "decks/peel.yaml")
     assert r.summary["broken_bonds"] > 0

@@ -80,10 +80,11 @@ def test_gases_of_one_pressure_rest_beside_an_oblique_interface():
     assert driven > 1e-3
 
 
-def test_stress_over_filled_regions_answers_a_uniform_pressure_with_uniform_tractions():
-    for method, angle, bound in (("multipliers", 20.0, 1e-6), ("vital vertices", 20.0, 1e-6), ("vital vertices", 35.0, 1e-3), ("mortar", 20.0, 0.04)):
-        METHODS["over regions"] = {**METHODS[method], "numerics/cut_cell_stress": "filled regions"}
-        check(f"{method}, {angle:.0f} degrees: deviation of the tractions", deviation("over regions", angle), bound)
+def test_stress_over_what_solids_fill_answers_a_uniform_pressure_with_uniform_tractions():
+    for where in ("filled regions", "full cells"):
+        for method, angle, bound in (("multipliers", 20.0, 1e-6), ("vital vertices", 20.0, 1e-6), ("vital vertices", 35.0, 1e-3), ("mortar", 20.0, 0.04)):
+            METHODS["over regions"] = {**METHODS[method], "numerics/cut_cell_stress": where}
+            check(f"{where}, {method}, {angle:.0f} degrees: deviation of the tractions", deviation("over regions", angle), bound)
 
 
 def test_gas_at_rest_on_a_shaken_mesh_stays_at_rest():

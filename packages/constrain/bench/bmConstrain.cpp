@@ -60,8 +60,8 @@ void rows(benchmark::State &state)
   for (auto _ : state)
   {
     SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
-    buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins), bins, bodies,
-                     scene.options);
+    buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, s, castRays(scene.mesh, s, bins), bins,
+                     bodies, scene.options);
   }
   state.counters["segments"] = s.count;
 }

@@ -20,7 +20,7 @@ std::vector<ContactRow> rowsOf(TinyScene const &scene, double dt = 0.0)
   SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
   BodyTable const bodies = buildBodyTable({}, static_cast<int>(scene.options.interaction.extent(0)));
   ContactRows const rows =
-      buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, s, castRays(scene.mesh, s, bins), bins,
+      buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, s, castRays(scene.mesh, s, bins), bins,
                        scene.conditions, bodies, scene.bonds, scene.options, {scene.velocity_n, bodies}, dt);
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
   return std::vector<ContactRow>(host.data(), host.data() + rows.count);
@@ -185,6 +185,50 @@ TEST(ContactRows, keysAscendAndWeightsReproduceThePoints)
     EXPECT_LT(norm(a - rows[i].point), 1e-13);
     EXPECT_LT(norm(b - rows[i].point), 1e-13);
   }
+}
+
+// The traction of a segment acts on the nodes with the means of the shape functions: quadratic along it, so by Simpson.
+TEST(ContactRows, weightsAreMeansOverTheSegmentWhereStressIsInBalanceWithThem)
+{
+  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)}, along{n[1], -n[0]};
+  TinyScene scene = split(12, [n](Quadrilateral const &) { return Plane2{n, 4.321}; });
+  scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, ShortSegments::Kept));
+  auto const rows = rowsOf(scene);
+  EXPECT_GT(rows.size(), 10u);
+  for (ContactRow const &r : rows)
+  {
+    Quadrilateral const q = cellQuadrilateral(scene.mesh, r.cell_a);
+    double N[3][4];
+    for (int j = 0; j < 3; ++j)
+      shapeFunctionsAt(q, r.point + (0.5 * (j - 1) * r.length) * along, N[j]);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(r.weight_a[k], (N[0][k] + 4.0 * N[1][k] + N[2][k]) / 6.0, 1e-13);
+  }
+}
+
+TEST(ContactRows, shortSegmentsHaveRowsWhereStressIsInBalanceWithThem)
+{
+  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
+  auto const count = [n](double gap, ShortSegments kept)
+  {
+    TinyScene scene(rectilinearMesh(uniform(12, 12), uniform(12, 12)),
+                    {{0,
+                      [n](Quadrilateral const &q) {
+                        return cutBy(q, Plane2{n, 4.321});
+                      }},
+                     {1,
+                      [n, gap](Quadrilateral const &q) {
+                        return cutBy(q, reversed({n, 4.321 + gap}));
+                      }}},
+                    2, open_box);
+    scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, kept));
+    return rowsOf(scene).size();
+  };
+  EXPECT_LT(count(0.0, ShortSegments::Dropped), count(0.0, ShortSegments::Kept));
+  EXPECT_EQ(count(0.0, ShortSegments::KeptInFullCells), count(0.0, ShortSegments::Kept));
+  constexpr double gap = 0.15; // more than 1% of the cell is void where a segment is longer than 0.07 cells
+  EXPECT_LT(count(gap, ShortSegments::KeptInFullCells), count(gap, ShortSegments::Kept));
+  EXPECT_EQ(count(gap, ShortSegments::KeptInFullCells), count(gap, ShortSegments::Dropped));
 }
 
 namespace

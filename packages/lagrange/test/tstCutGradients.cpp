@@ -6,6 +6,8 @@
 #include <detail/Harmos_PairAccess.hpp>
 #include <detail/Harmos_RingQuadrature.hpp>
 
+#include <numeric>
+
 using namespace Harmos;
 
 namespace
@@ -83,6 +85,27 @@ Region polygon(std::vector<Vector2> const &vertices)
   return r;
 }
 
+/// Rows of the gradients of regions that share the cell [2, 2.4] x [1, 1.3], each a material of its own.
+auto gradientsOf(std::vector<Region> const &parts, Material const &material, CutCellStress where)
+{
+  Mesh const mesh = buildMesh(rectilinearMesh({2.0, 2.4}, {1.0, 1.3}));
+  int const count = static_cast<int>(parts.size());
+  CellMaterialPairs pairs;
+  pairs.offset = deviceCopy("offset", std::vector<int>{0, count});
+  std::vector<int> number(parts.size());
+  std::iota(number.begin(), number.end(), 0);
+  pairs.material = deviceCopy("material", number);
+  FilledRegions regions;
+  regions.num_mixed_cells = 1;
+  regions.mixed_cell = deviceCopy("mixed_cell", std::vector<int>{0});
+  regions.cell_region = deviceCopy("cell_region", std::vector<int>{0});
+  regions.polygon = deviceCopy("polygon", parts);
+  CutGradients cut;
+  computeCutGradients(mesh, pairs, regions, deviceCopy("materials", std::vector<Material>(parts.size(), material)),
+                      where, cut);
+  return Harmos::Test::onHost(cut.gradient);
+}
+
 } // namespace
 
 TEST(CutGradients, areTheTractionsOfAUniformPressureOnTheOutline)
@@ -99,6 +122,41 @@ TEST(CutGradients, areTheTractionsOfAUniformPressureOnTheOutline)
         for (int d = 0; d < 2; ++d)
           EXPECT_NEAR(cell.integral(part, corner, d), alongOutline(cell.mesh, part, corner, d), 1e-14);
     }
+}
+
+TEST(CutGradients, ofSolidsFollowTheFullnessOfTheirCell)
+{
+  // Lower and upper part of the cell [2, 2.4] x [1, 1.3] with void above y = top: full at 1.3, half full at 0.5% of
+  // void.
+  Region const lower = polygon({{2.0, 1.0}, {2.4, 1.0}, {2.4, 1.1}, {2.0, 1.1}});
+  Material solid;
+  solid.strength = StrengthKind::Elastic;
+  for (double const open : {0.0, 0.005, 0.02})
+  {
+    double const top = 1.3 - 0.3 * open;
+    Region const upper = polygon({{2.0, 1.1}, {2.4, 1.1}, {2.4, top}, {2.0, top}});
+    auto const all = gradientsOf({lower, upper}, solid, CutCellStress::FilledRegions);
+    auto const full = gradientsOf({lower, upper}, solid, CutCellStress::FullCells);
+    auto const fluid = gradientsOf({lower, upper}, Material(), CutCellStress::FullCells);
+    double const share = open == 0.0 ? 1.0 : open == 0.005 ? 0.5 : 0.0;
+    for (int region = 0; region < 2; ++region)
+      for (int k = 0; k < 12; ++k)
+      {
+        EXPECT_NEAR(full(region, k), share * all(region, k), 1e-11);
+        EXPECT_EQ(fluid(region, k), all(region, k));
+      }
+    EXPECT_GT(std::fabs(all(0, CutGradientX)), 0.1); // the parts do have gradients of their own
+  }
+}
+
+TEST(CutGradients, ofALoneSolidAreNothingBeyondTheMeanInFullCells)
+{
+  Material solid;
+  solid.strength = StrengthKind::Elastic;
+  auto const g =
+      gradientsOf({polygon({{2.0, 1.0}, {2.4, 1.0}, {2.4, 1.3}, {2.01, 1.3}})}, solid, CutCellStress::FullCells);
+  for (int k = 0; k < 12; ++k)
+    EXPECT_EQ(g(0, k), 0.0);
 }
 
 TEST(CutGradients, ofAWholeCellAreNothingBeyondItsMean)
