@@ -89,16 +89,14 @@ KOKKOS_INLINE_FUNCTION void addCover(Edge const &edge, Region const &region, int
   }
 }
 
-/// The cell face that an edge lies on, with the face's own direction; -1: none.
-KOKKOS_INLINE_FUNCTION int faceOfEdge(CellFrame const &frame, Edge const &edge)
+/// The cell face that the edge a -> b lies on, with the face's own direction; -1: none.
+KOKKOS_INLINE_FUNCTION int faceOfEdge(CellFrame const &frame, Vector2 const &a, Vector2 const &b)
 {
-  Vector2 const end = edge.start + edge.length * edge.direction;
   for (int k = 0; k < 4; ++k)
   {
     Edge const &face = frame.face[k];
-    if (dot(face.direction, edge.direction) > 0.0 &&
-        Math::fabs(dot(edge.start - face.start, face.normal)) <= frame.tolerance &&
-        Math::fabs(dot(end - face.start, face.normal)) <= frame.tolerance)
+    if (dot(face.direction, b - a) > 0.0 && Math::fabs(dot(a - face.start, face.normal)) <= frame.tolerance &&
+        Math::fabs(dot(b - face.start, face.normal)) <= frame.tolerance)
       return k;
   }
   return -1;
@@ -212,6 +210,14 @@ struct SegmentFinder
            covers.end[0] >= length - tolerance;
   }
 
+  /// Whether nothing of a material can show through a face: it lies beyond too, or nothing that contact heeds.
+  KOKKOS_INLINE_FUNCTION bool isHidden(int cell, int face, int material) const
+  {
+    int const across = mesh.face_neighbour(cell, face);
+    return across >= 0 ? surface.filling(across / 4) == material
+                       : mesh.face_boundary(cell, face) >= 0 && !surface.contactWall(cell, face);
+  }
+
   /// Write the segments of one edge of a pair's region, on a face of its cell or (face = -1) inside, from `first` on,
   /// as far as there is room; returns their number. `blank` holds what the cell's segments share.
   KOKKOS_INLINE_FUNCTION int edgeSegments(int pair, Edge const &edge, int face, CellFrame const &frame,
@@ -222,8 +228,6 @@ struct SegmentFinder
     int const across = face < 0 ? -1 : mesh.face_neighbour(cell, face);
     bool const outer = face >= 0 && across < 0;
     bool const free = outer && mesh.face_boundary(cell, face) < 0;
-    if (outer ? !free && !surface.contactWall(cell, face) : across >= 0 && surface.filling(across / 4) == material)
-      return 0;
     EdgePieces pieces;
     if (outer || (across >= 0 && surface.filling(across / 4) != mixed_filling))
       wholeEdge(edge.length, pieces);
@@ -292,7 +296,7 @@ struct SegmentFinder
     if (surface.filling(cell) >= 0)
     {
       for (int k = 0; k < 4; ++k)
-        if (frame.face[k].length > frame.tolerance)
+        if (!isHidden(cell, k, pairs.material(begin)) && frame.face[k].length > frame.tolerance)
           count += edgeSegments(begin, frame.face[k], k, frame, blank, count, first + count);
       return count;
     }
@@ -302,9 +306,13 @@ struct SegmentFinder
       Region const &region = regions.polygon(first_region + pair - begin);
       for (int i = 0; i < region.size; ++i)
       {
-        Edge const edge = edgeBetween(region[i], region[region.next(i)]);
+        Vector2 const a = region[i], b = region[region.next(i)];
+        int const face = faceOfEdge(frame, a, b);
+        if (face >= 0 && isHidden(cell, face, pairs.material(pair)))
+          continue;
+        Edge const edge = edgeBetween(a, b);
         if (edge.length > frame.tolerance)
-          count += edgeSegments(pair, edge, faceOfEdge(frame, edge), frame, blank, count, first + count);
+          count += edgeSegments(pair, edge, face, frame, blank, count, first + count);
       }
     }
     return count;
@@ -368,7 +376,7 @@ InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs cons
                                         NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                         BoundaryConditions const &conditions, Placement placement, InterfaceCells *kept)
 {
-  constexpr int usual_segments = 8; // of a cell; where there are more the room is enlarged
+  constexpr int usual_segments = 4; // of a cell; where there are more the room is enlarged
   SegmentFinder finder{mesh, pairs, regions, cellSurface(mesh, pairs, conditions), {}, placement};
   InterfaceCells own;
   InterfaceCells &cells = kept != nullptr ? *kept : own;
