@@ -81,7 +81,7 @@ View<RemovedImpulse *> removedImpulses(ContactSystem const &s, RowWorker const &
         for (int e = s.rows_of.offset(i); e < s.rows_of.offset(i + 1); ++e)
         {
           int const row = s.rows_of.item(e) / 8;
-          Vector2 const n{s.normal(row, 0), s.normal(row, 1)};
+          Vector2 const n = s.row(row).normal;
           f += s.weight(row, s.rows_of.item(e) % 8) * (p(row, 0) * n + p(row, 1) * perpendicular(n));
         }
         f -= s.condition(i).project(f);

@@ -20,8 +20,8 @@ KOKKOS_INLINE_FUNCTION double rowVelocity(ContactSystem const &s, View<double *[
   }
   double r = dot(s.direction(row, k), v);
   for (int side = 0; side < 2; ++side)
-    for (int c = 0; s.free_body(row, side) >= 0 && c < 3; ++c)
-      r += s.bodyJacobian(row, side, k, c) * body_change(s.free_body(row, side), c);
+    for (int c = 0; s.freeBody(row, side) >= 0 && c < 3; ++c)
+      r += s.bodyJacobian(row, side, k, c) * body_change(s.freeBody(row, side), c);
   return r;
 }
 

@@ -65,13 +65,13 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
       },
       entries);
   View<int *> const item = unset<int *>("Harmos::constrain::rows_of", entries);
-  View<int *[8]> const compact = unset<int *[8]>("Harmos::constrain::row_dof", rows.count);
+  View<SystemRow *> const compact = system.row;
   Kokkos::parallel_for(
       "Harmos::constrain::fillUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
         {
           int const dof = dofOf(row(r), k);
-          compact(r, k) = dof >= 0 ? place(dof) : -1;
+          compact(r).dof[k] = dof >= 0 ? place(dof) : -1;
           if (dof >= 0)
             item(offset(place(dof)) + Kokkos::atomic_fetch_add(&filled(place(dof)), 1)) = 8 * r + k;
         }
@@ -87,7 +87,6 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
           }
       });
   system.dof_node = dof_node;
-  system.dof = compact;
   system.rows_of = {offset, item};
 }
 
@@ -155,40 +154,33 @@ KOKKOS_INLINE_FUNCTION double approach(ContactRow const &row, double relative, M
 void fillRows(ContactRows const &rows, Motion const &before, Motion const &predicted, View<int *> const &free_number,
               double dt, ContactSystem &system)
 {
-  system.tied = unset<int *>("Harmos::constrain::tied", rows.count);
-  system.friction = unset<double *>("Harmos::constrain::friction", rows.count);
-  system.normal = unset<double *[2]>("Harmos::constrain::row_normal", rows.count);
-  system.weight = unset<double *[8]>("Harmos::constrain::row_weight", rows.count);
-  system.predicted = unset<double *[2]>("Harmos::constrain::row_predicted", rows.count);
-  system.free_body = unset<int *[2]>("Harmos::constrain::row_body", rows.count);
-  system.arm = unset<double *[4]>("Harmos::constrain::row_arm", rows.count);
   ContactSystem const s = system;
   View<ContactRow *> const row = rows.row;
   Kokkos::parallel_for(
       "Harmos::constrain::fillRows", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) {
         ContactRow const &r = row(i);
-        s.tied(i) = r.tied;
-        s.friction(i) = r.friction;
+        SystemRow &out = s.row(i);
+        out.tied = r.tied;
+        out.friction = r.friction;
+        out.normal = r.normal;
+        out.diagonal[0] = out.diagonal[1] = 0.0;
         for (int side = 0; side < 2; ++side)
         {
           int const body = side == 0 ? r.body_a : r.body_b;
           for (int k = 0; k < 4; ++k)
           {
             int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
-            s.weight(i, 4 * side + k) = dof < 0 ? 0.0 : side == 0 ? -r.weight_a[k] : r.weight_b[k];
+            out.weight[4 * side + k] = dof < 0 ? 0.0 : side == 0 ? -r.weight_a[k] : r.weight_b[k];
           }
-          s.free_body(i, side) = body >= 0 ? free_number(body) : -1;
-          Vector2 arm{0.0, 0.0};
+          out.free_body[side] = body >= 0 ? free_number(body) : -1;
+          out.arm[side] = {0.0, 0.0};
           if (body >= 0)
-            arm = (side == 0 ? r.point : r.point + r.gap * r.normal) - predicted.bodies.body(body).centre;
-          s.arm(i, 2 * side) = arm[0];
-          s.arm(i, 2 * side + 1) = arm[1];
-          s.normal(i, side) = r.normal[side];
+            out.arm[side] = (side == 0 ? r.point : r.point + r.gap * r.normal) - predicted.bodies.body(body).centre;
         }
         Vector2 const relative = relativeVelocity(r, predicted.velocity, predicted.bodies);
         double const along = dot(r.normal, relative);
-        s.predicted(i, 0) = r.tied ? along : approach(r, along, before, dt);
-        s.predicted(i, 1) = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
+        out.predicted[0] = r.tied ? along : approach(r, along, before, dt);
+        out.predicted[1] = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
       });
 }
 
@@ -224,7 +216,7 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
   for (int side = 0; side < 2; ++side)
     for (int c = 0; c < 3; ++c)
     {
-      int const body = s.free_body(row, side);
+      int const body = s.freeBody(row, side);
       double const j = s.bodyJacobian(row, side, k, c);
       sum += body >= 0 ? j * j * s.body_inverse_mass(body, c) : 0.0;
     }
@@ -242,17 +234,17 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   system.num_rows = rows.count;
   system.num_own = rows.num_own;
   system.own = rows.own;
+  system.row = unset<SystemRow *>("Harmos::constrain::system_row", rows.count);
   numberDofs(rows, dof_nodes.num_dof_nodes, system);
   gatherDofs(dof_nodes, conditions, dof_mass, system);
   View<int *> const free_number = numberFreeBodies(bodies, system);
   fillRows(rows, before, predicted, free_number, dt, system);
-  system.diagonal = View<double *[2]>("Harmos::constrain::diagonal", rows.count);
   ContactSystem const s = system;
   Kokkos::parallel_for(
       "Harmos::constrain::rowSums", RangePolicy(0, rows.num_own), KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
-          s.diagonal(row, k) = rowSum(s, row, k);
+          s.row(row).diagonal[k] = rowSum(s, row, k);
       });
   system.num_multipliers = rows.num_multipliers;
   return system;
@@ -267,7 +259,7 @@ void velocityChange(ContactSystem const &system, View<double *[2]> const &impuls
         for (int e = s.rows_of.offset(i); e < s.rows_of.offset(i + 1); ++e)
         {
           int const row = s.rows_of.item(e) / 8;
-          Vector2 const n{s.normal(row, 0), s.normal(row, 1)};
+          Vector2 const n = s.row(row).normal;
           f += s.weight(row, s.rows_of.item(e) % 8) * (impulse(row, 0) * n + impulse(row, 1) * perpendicular(n));
         }
         f = s.condition(i).project(f);
@@ -285,7 +277,7 @@ KOKKOS_INLINE_FUNCTION double bodyImpulse(ContactSystem const &s, View<double *[
 {
   double sum = 0.0;
   for (int side = 0; side < 2; ++side)
-    if (s.free_body(row, side) == body)
+    if (s.freeBody(row, side) == body)
       for (int k = 0; k < s.directions(row); ++k)
         sum += impulse(row, k) * s.bodyJacobian(row, side, k, c);
   return sum;

@@ -31,6 +31,20 @@ struct ImpulseBounds
   KOKKOS_INLINE_FUNCTION double violation(double p, double r) const { return Math::fabs(inside(p) ? r : inward(p, r)); }
 };
 
+/// What the problem knows of a row.
+struct SystemRow
+{
+  bool tied;
+  double friction; // coefficient
+  Vector2 normal;
+  int dof[8];          // compact dof of side a's corners (0..3) and b's (4..7), -1: none
+  double weight[8];    // signed shape functions, - for a, + for b
+  double predicted[2]; // b
+  double diagonal[2];  // row sums of |G M^-1 P G^T|, deformable part; own rows
+  int free_body[2];    // free body of side a, b: its compact number, -1: none
+  Vector2 arm[2];      // point - centre of the body of side a, of side b
+};
+
 /// The complementarity problem of the contact rows, without a matrix.
 ///
 /// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
@@ -44,16 +58,8 @@ struct ContactSystem
   int num_free = 0;              // free rigid bodies
   long long num_multipliers = 0; // over all ranks
 
-  View<int *> own;             // num_own: rows
-  View<int *> tied;            // num_rows
-  View<double *> friction;     // num_rows: coefficient
-  View<double *[2]> normal;    // num_rows
-  View<int *[8]> dof;          // num_rows: compact dof of side a's corners (0..3) and b's (4..7), -1: none
-  View<double *[8]> weight;    // num_rows: signed shape functions, - for a, + for b
-  View<double *[2]> predicted; // num_rows: b
-  View<double *[2]> diagonal;  // num_rows: row sums of |G M^-1 P G^T|, deformable part; own rows
-  View<int *[2]> free_body;    // num_rows: free body of side a, b: its compact number, -1: none
-  View<double *[4]> arm;       // num_rows: point - centre of the body of side a, of side b
+  View<int *> own;       // num_own: rows
+  View<SystemRow *> row; // num_rows
 
   View<int *> dof_node;            // num_dofs
   View<double *> inverse_mass;     // num_dofs
@@ -64,30 +70,35 @@ struct ContactSystem
   View<double *[3]> body_scale;        // num_free: 1, 1, radius of gyration: makes the components alike
   HostView<int *> free_number;         // num_free: number of the body
 
-  KOKKOS_INLINE_FUNCTION int directions(int row) const { return tied(row) || friction(row) > 0.0 ? 2 : 1; }
+  KOKKOS_INLINE_FUNCTION bool tied(int r) const { return row(r).tied; }
+  KOKKOS_INLINE_FUNCTION double friction(int r) const { return row(r).friction; }
+  KOKKOS_INLINE_FUNCTION int dof(int r, int slot) const { return row(r).dof[slot]; }
+  KOKKOS_INLINE_FUNCTION double weight(int r, int slot) const { return row(r).weight[slot]; }
+  KOKKOS_INLINE_FUNCTION double predicted(int r, int k) const { return row(r).predicted[k]; }
+  KOKKOS_INLINE_FUNCTION double diagonal(int r, int k) const { return row(r).diagonal[k]; }
+  KOKKOS_INLINE_FUNCTION int freeBody(int r, int side) const { return row(r).free_body[side]; }
+  KOKKOS_INLINE_FUNCTION int directions(int r) const { return tied(r) || friction(r) > 0.0 ? 2 : 1; }
 
-  KOKKOS_INLINE_FUNCTION Vector2 direction(int row, int k) const
+  KOKKOS_INLINE_FUNCTION Vector2 direction(int r, int k) const
   {
-    Vector2 const n{normal(row, 0), normal(row, 1)};
-    return k == 0 ? n : perpendicular(n);
+    return k == 0 ? row(r).normal : perpendicular(row(r).normal);
   }
 
   /// \param reach Largest |impulse| across n by friction.
-  KOKKOS_INLINE_FUNCTION ImpulseBounds bounds(int row, int k, double reach) const
+  KOKKOS_INLINE_FUNCTION ImpulseBounds bounds(int r, int k, double reach) const
   {
     constexpr double none = 1.0e300;
-    if (tied(row))
+    if (tied(r))
       return {-none, none};
     return k == 0 ? ImpulseBounds{0.0, none} : ImpulseBounds{-reach, reach};
   }
 
   /// Derivative of the row's velocity along direction k with respect to component c (Vx, Vy, omega) of a side's body.
-  KOKKOS_INLINE_FUNCTION double bodyJacobian(int row, int side, int k, int c) const
+  KOKKOS_INLINE_FUNCTION double bodyJacobian(int r, int side, int k, int c) const
   {
-    Vector2 const d = direction(row, k);
+    Vector2 const d = direction(r, k);
     double const sign = side == 0 ? -1.0 : 1.0;
-    Vector2 const r{arm(row, 2 * side), arm(row, 2 * side + 1)};
-    return sign * (c < 2 ? d[c] : cross(r, d));
+    return sign * (c < 2 ? d[c] : cross(row(r).arm[side], d));
   }
 };
 

@@ -51,10 +51,10 @@ double operatorNorm(ContactSystem const &s, Conjugate const &c, Exchange const &
         double trace = 0.0;
         for (int k = 0; k < s.directions(row); ++k)
           for (int side = 0; side < 2; ++side)
-            for (int b = 0; s.free_body(row, side) >= 0 && b < 3; ++b)
+            for (int b = 0; s.freeBody(row, side) >= 0 && b < 3; ++b)
             {
               double const j = s.bodyJacobian(row, side, k, b);
-              trace += j * j * s.body_inverse_mass(s.free_body(row, side), b) / s.diagonal(row, k);
+              trace += j * j * s.body_inverse_mass(s.freeBody(row, side), b) / s.diagonal(row, k);
             }
         c.term(i, 0) = trace;
         c.term(i, 1) = 0.0;
@@ -220,6 +220,16 @@ bool hasFriction(ContactSystem const &s, Exchange const &exchange)
   return exchange.max(s.num_own > 0 ? largest : 0.0) > 0.0;
 }
 
+/// The residual of no impulses: what was predicted.
+void predictedResidual(ContactSystem const &s, View<double *[2]> const &r)
+{
+  Kokkos::parallel_for(
+      "Harmos::constrain::predictedResidual", RangePolicy(0, s.num_rows), KOKKOS_LAMBDA(int row) {
+        r(row, 0) = s.predicted(row, 0);
+        r(row, 1) = s.predicted(row, 1);
+      });
+}
+
 /// One solve: the operator, the arrays, and what has been reached.
 class Solve
 {
@@ -320,10 +330,10 @@ private:
 
   double violation() const { return contact_.violation(c_.p, c_.r, c_.reach); }
 
-  /// Judge the residual of no impulses, which is what was predicted.
+  /// Judge the residual of no impulses.
   bool nothingFits()
   {
-    Kokkos::deep_copy(c_.r, s_.predicted);
+    predictedResidual(s_, c_.r);
     return judge();
   }
 
