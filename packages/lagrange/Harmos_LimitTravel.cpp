@@ -2,6 +2,7 @@
 #include <Harmos_Lagrange.hpp>
 
 #include <Harmos_JoinReducer.hpp>
+#include <Harmos_Select.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -40,6 +41,12 @@ struct SlowLight
     return condition < 0 ? change : boundary.condition(condition).project(change);
   }
 
+  /// What is not lighter is not light in any cell.
+  KOKKOS_INLINE_FUNCTION double lightMass(int material) const
+  {
+    return largest_cell * (density_range * light_node * materials(material).density0);
+  }
+
   /// A first look, which lets all light dof nodes of one deformable material pass.
   KOKKOS_INLINE_FUNCTION bool mayBeLight(int dof) const
   {
@@ -47,7 +54,7 @@ struct SlowLight
     if (own < 0 || materials(own).rigid_body >= 0)
       return false;
     double const mass_of_volume = density_range * light_node * materials(own).density0;
-    if (dof_mass(dof) >= largest_cell * mass_of_volume) // no division where none is light
+    if (dof_mass(dof) >= lightMass(own)) // no division where none is light
       return false;
     int const node = dof_nodes.node(dof);
     double const volume = dof_mass(dof) / mass_of_volume;
@@ -210,27 +217,74 @@ struct Crossing
   }
 };
 
+/// Looks at dof nodes in packs, and closer at those of a pack in which one may be light or travel furthest so far.
+struct CrossingFunctor
+{
+  SlowLight slow;
+  int const *node_of, *material_of;
+  double const *mass, *altitude;
+  RowPointer<double, 2> half;
+  int count;
+
+  KOKKOS_INLINE_FUNCTION void look(int dof, Crossing &largest) const
+  {
+    int const node = slow.dof_nodes.node(dof);
+    double const limit = largest_part_of_altitude * slow.altitude(node);
+    Vector2 const v = slow.velocity(dof);
+    double const travel2 = slow.dt * slow.dt * dot(v, v);
+    if (travel2 > limit * limit || slow.mayBeLight(dof))
+      largest.light += slow.pairOfOffender(dof) >= 0;
+    if (travel2 <= largest.owned * (limit * limit))
+      return;
+    double const squared = travel2 / (limit * limit);
+    largest.local = Math::max(largest.local, squared);
+    if (slow.mesh.node_owned(node))
+      largest.owned = Math::max(largest.owned, squared);
+  }
+
+  /// Whether `look` would find nothing; in doubt, by round-off or because materials differ, not.
+  KOKKOS_FORCEINLINE_FUNCTION bool passes(int first, double owned) const
+  {
+    constexpr double margin = 1.0 + 1e-12;
+    int const material = material_of[first];
+    int differs = 0;
+    for (int lane = 1; lane < pack_width; ++lane)
+      differs |= material_of[first + lane] ^ material;
+    if (differs != 0)
+      return false;
+    Pack x, y;
+    loadPoints([&](int lane) { return half.row(first + lane); }, x, y);
+    Pack const limit = largest_part_of_altitude * packOf([&](int lane) { return altitude[node_of[first + lane]]; });
+    Pack const travel2 = (margin * slow.dt * slow.dt) * (x * x + y * y);
+    if (any(no(travel2 <= Math::min(owned, 1.0) * (limit * limit))))
+      return false;
+    bool const deformable = material >= 0 && slow.materials(material).rigid_body < 0;
+    return !deformable || !any(loadPack(mass + first) < Pack(margin * slow.lightMass(material)));
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int block, Crossing &largest) const
+  {
+    int const first = block * pack_width;
+    if (first + pack_width <= count && passes(first, largest.owned))
+      return;
+    for (int dof = first; dof < count && dof < first + pack_width; ++dof)
+      look(dof, largest);
+  }
+};
+
 Crossing largestCrossing(SlowLight const &slow)
 {
   int const count = slow.dof_nodes.num_dof_nodes;
+  CrossingFunctor const crossing{slow,
+                                 slow.dof_nodes.node.data(),
+                                 slow.dof_nodes.material.data(),
+                                 slow.dof_mass.data(),
+                                 slow.altitude.data(),
+                                 slow.half,
+                                 count};
   Crossing result;
-  Kokkos::parallel_reduce(
-      "Harmos::lagrange::largestCrossing", RangePolicy(0, count),
-      KOKKOS_LAMBDA(int dof, Crossing &largest) {
-        int const node = slow.dof_nodes.node(dof);
-        double const limit = largest_part_of_altitude * slow.altitude(node);
-        Vector2 const v = slow.velocity(dof);
-        double const travel2 = slow.dt * slow.dt * dot(v, v);
-        if (travel2 > limit * limit || slow.mayBeLight(dof))
-          largest.light += slow.pairOfOffender(dof) >= 0;
-        if (travel2 <= largest.owned * (limit * limit))
-          return;
-        double const squared = travel2 / (limit * limit);
-        largest.local = Math::max(largest.local, squared);
-        if (slow.mesh.node_owned(node))
-          largest.owned = Math::max(largest.owned, squared);
-      },
-      JoinReducer<Crossing>(result));
+  Kokkos::parallel_reduce("Harmos::lagrange::largestCrossing", RangePolicy(0, numPacks(count)), crossing,
+                          JoinReducer<Crossing>(result));
   return result;
 }
 
