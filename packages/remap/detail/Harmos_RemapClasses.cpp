@@ -162,7 +162,21 @@ struct Classifier
     classes.node_final(node) = final ? 1 : 0;
     bool const free = in.conditions.node_index(node) < 0 && in.mesh.node_owned(node) != 0;
     bool const plain = final && free && classes.node_return(node) == SweptNode;
-    classes.node_sweep(node) = plain ? PlainNode : swept ? SpecialNode : UntouchedNode;
+    classes.node_sweep(node) = plain ? PlainNode | runBits(node) : swept ? SpecialNode : UntouchedNode;
+  }
+
+  KOKKOS_INLINE_FUNCTION int runBits(int node) const
+  {
+    auto const around = in.mesh.node_cell;
+    int const first = around.offset(node);
+    if (around.offset(node + 1) - first != 4)
+      return 0;
+    if (node + 1 == in.mesh.num_nodes || around.offset(node + 2) - around.offset(node + 1) != 4)
+      return FourCellsBit;
+    int differs = 0;
+    for (int i = first; i < first + 4; ++i)
+      differs |= around.item(i + 4) ^ (around.item(i) + 4);
+    return differs == 0 ? FourCellsBit | RunsOnBit : FourCellsBit;
   }
 };
 

@@ -42,8 +42,10 @@ enum SweptBits : int
 enum NodeSweep : int
 {
   SpecialNode = 0,
-  PlainNode = 1,    // swept, final, owned and without condition
-  UntouchedNode = 2 // no cell around takes part in stage 1
+  PlainNode = 1,     // swept, final, owned and without condition; with bits:
+  UntouchedNode = 2, // no cell around takes part in stage 1
+  FourCellsBit = 4,  // lies in four cells
+  RunsOnBit = 8      // the next node lies in the four cells that follow those
 };
 
 /// Which stage moves what.
@@ -51,7 +53,7 @@ struct Classes
 {
   View<int *> flags;           // num_cells, SweptBits
   View<int *> node_final;      // num_nodes: 1 where no cell around takes part in stage 2
-  View<int *> node_sweep;      // num_nodes, NodeSweep
+  View<int *> node_sweep;      // num_nodes, NodeSweep, bits with PlainNode alone
   View<int *> node_return;     // num_nodes, NodeReturn
   View<int *> pure_material;   // num_cells: material of a pure deformable cell, -1: none such, -2: no deformable at all
   View<int *> open;            // num_cells, OpenBits; extent 0: the boundaries are slip and fixed walls

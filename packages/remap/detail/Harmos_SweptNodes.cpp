@@ -114,23 +114,17 @@ struct SweptNodesFunctor
   /// Whether the nodes from `first` on are plain and each lies in four cells, which are runs of cells on runs of rows.
   KOKKOS_FORCEINLINE_FUNCTION bool inRuns(int first) const
   {
-    int const *item = stage.item + stage.first_item[first];
-    int differs = stage.first_item[first + 1] - stage.first_item[first] - 4;
-    for (int lane = 0; lane < pack_width; ++lane)
-    {
-      differs |= stage.node_sweep[first + lane] ^ PlainNode;
-      differs |= (stage.first_item[first + lane + 1] - stage.first_item[first + lane]) ^ 4;
-    }
+    constexpr int last = PlainNode | FourCellsBit;
+    int differs = (stage.node_sweep[first + pack_width - 1] & last) ^ last;
+    for (int lane = 0; lane + 1 < pack_width; ++lane)
+      differs |= stage.node_sweep[first + lane] ^ (last | RunsOnBit);
     if (differs != 0)
       return false;
+    int const *item = stage.item + stage.first_item[first];
     bool wraps = false;
     for (int i = 0; i < 4; ++i)
-    {
-      for (int lane = 1; lane < pack_width; ++lane)
-        differs |= item[4 * lane + i] ^ (item[i] + 4 * lane);
       wraps = wraps || !stage.inTile(item[i] >> 2);
-    }
-    return differs == 0 && !wraps;
+    return !wraps;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Plain gatherRuns(int first) const

@@ -60,7 +60,7 @@ enum SweptBlock : int
 };
 
 /// Rows of a tile of SweptWindow, and what lies between its columns: a row's fall on different sets of the cache.
-constexpr int tile_rows = 128;
+constexpr int tile_rows = pack_width > 1 ? 128 : 32; // a device's threads keep a column's row for what they gather
 constexpr int column_stride = tile_rows + 8;
 
 /// What the kernels of stage 1 hand to one another, column by column, so that packs are loaded and stored whole. Cells
