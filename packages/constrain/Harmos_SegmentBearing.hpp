@@ -23,28 +23,32 @@ struct SegmentBearing
     return material >= 0 && kept.extent(0) > 0 ? kept(material) : ShortSegments::Dropped;
   }
 
-  /// Whether both sides of an undivided interface inside a cell end where segment a does.
-  KOKKOS_INLINE_FUNCTION bool insideCell(InterfaceSegment const &a, InterfaceSegment const &b) const
+  /// What balances the traction of segment a, where both sides of an undivided interface end in its cell: beside a
+  /// wall there is no cell that is full.
+  KOKKOS_INLINE_FUNCTION ShortSegments balance(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
-    return a.parts == 1 && a.face < 0 && b.cell == a.cell;
+    ShortSegments const of_a = shortSegments(a.material), of_b = shortSegments(b.material);
+    if (a.parts > 1 || a.face >= 0 || b.cell != a.cell)
+      return ShortSegments::Dropped;
+    if (of_a == ShortSegments::Kept || of_b == ShortSegments::Kept)
+      return ShortSegments::Kept;
+    bool const full = of_a == ShortSegments::KeptInFullCells || of_b == ShortSegments::KeptInFullCells;
+    return full && b.material >= 0 ? ShortSegments::KeptInFullCells : ShortSegments::Dropped;
   }
 
-  /// Whether the traction of segment a acts over all of it, in balance with the stress of one side at least.
+  /// Whether the traction of segment a acts over all of it.
   KOKKOS_INLINE_FUNCTION bool bearsWhole(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
-    return insideCell(a, b) &&
-           (shortSegments(a.material) != ShortSegments::Dropped || shortSegments(b.material) != ShortSegments::Dropped);
+    return balance(a, b) != ShortSegments::Dropped;
   }
 
   /// Length below which segment a carries no row. [cells]
   KOKKOS_INLINE_FUNCTION double shortest(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
-    ShortSegments const of_a = shortSegments(a.material), of_b = shortSegments(b.material);
-    if (!insideCell(a, b) || (of_a == ShortSegments::Dropped && of_b == ShortSegments::Dropped))
+    ShortSegments const found = balance(a, b);
+    if (found == ShortSegments::Dropped)
       return least_length;
-    if (of_a == ShortSegments::Kept || of_b == ShortSegments::Kept)
-      return 0.0;
-    return (1.0 - fullness(mesh, pairs, regions, a.cell)) * least_length;
+    return found == ShortSegments::Kept ? 0.0 : (1.0 - fullness(mesh, pairs, regions, a.cell)) * least_length;
   }
 };
 
