@@ -227,7 +227,8 @@ def write(found, sections, folder):
     axes.set_yticks(range(len(columns)), columns)
     for i, column in enumerate(columns):
         for j, method in enumerate(methods):
-            axes.text(j, i, f"{found[method][column]:.2g}", ha="center", va="center", fontsize=8)
+            dark = abs(colour[i][j] - 0.5) > 0.35
+            axes.text(j, i, f"{found[method][column]:.2g}", ha="center", va="center", fontsize=8, color="white" if dark else "black")
     figure.tight_layout()
     figure.savefig(folder / "stability-atlas.png", dpi=110)
 
