@@ -61,7 +61,7 @@ void rows(benchmark::State &state)
   {
     SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
     buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, s, castRays(scene.mesh, s, bins), bins,
-                     bodies, scene.options);
+                     scene.conditions, bodies, scene.bonds, scene.options);
   }
   state.counters["segments"] = s.count;
 }
