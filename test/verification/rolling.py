@@ -2,7 +2,7 @@
 """Free rigid bodies that roll, slide and spin on rigid ones inside of cells: rigid-body mechanics has the exact answers."""
 from math import cos, hypot, pi, radians, sin, sqrt, tan
 
-from harness import ROOT, check, clean, harmos, run
+from harness import ROOT, check, clean, harmos, read_columns, run
 
 DECK = ROOT / "test/verification/decks/rolling.yaml"
 G, R = 9.81, 0.2
@@ -135,6 +135,21 @@ def test_an_elastic_disc_rolls_down_a_slope():
                       "mesh/x": "{from: -1.0, to: 1.0, cells: 60}", "mesh/y": "{from: -0.8, to: 0.7, cells: 45}"})
     speed = hypot(r.last("disc.momentum_x"), r.last("disc.momentum_y")) / r.last("disc.mass")
     check("missing part of the speed", abs(speed / (2.0 / 3.0 * G * sin(radians(20.0)) * r.last("time")) - 1.0), 0.12)
+    clean(r)
+
+
+def test_discs_and_boxes_fall_onto_a_heap_and_come_to_rest():
+    """Statics: three discs and two boxes in a box whose walls rub; what is at rest bears the weight on its floor."""
+    r = harmos(ROOT / "test/verification/decks/heap.yaml")
+    fallen = r.last("external_work")
+    check("energy of motion at the end, over that of the fall", r.last("kinetic_energy") / fallen, 1e-15)
+    check("energy that contact took, missing from that of the fall", abs(r.last("contact_loss") / fallen - 1.0), 1e-12)
+    check("overlap, in metres squared", max(r["overlap_volume"]), 1e-9)
+    check("energy ledger", r.summary["energy_error"], 1e-10)
+    assert r.summary["unconverged_cycles"] == 0
+    rows = read_columns(r.directory / "contact.csv")
+    floor = sum(y for t, b, y in zip(rows["time"], rows["b"], rows["force_y"]) if t == rows["time"][-1] and b == "contact_wall")
+    check("weight on the walls", abs(floor / (r.last("mass") * G) - 1.0), 1e-8)
     clean(r)
 
 
