@@ -15,6 +15,8 @@ namespace RemapDetail
 namespace
 {
 
+using LaneMask = decltype(Pack(0.0) > Pack(0.0)); // of packs; a bool where they are doubles
+
 /// Velocities at the corners of a pack's cells.
 struct PackedCorners
 {
@@ -70,11 +72,11 @@ struct SweptGatherFunctor
   /// What the cells exchange with their neighbours.
   struct Exchanged
   {
-    Pack::Mask enters[4]; // something does, through each face
-    int entering;         // 1 << k: through face k of some cell
-    Pack outflow[4];      // mass that leaves through each face
-    Pack volume;          // after
-    Pack flow;            // zero where nothing moves
+    LaneMask enters[4]; // something does, through each face
+    int entering;       // 1 << k: through face k of some cell
+    Pack outflow[4];    // mass that leaves through each face
+    Pack volume;        // after
+    Pack flow;          // zero where nothing moves
   };
 
   KOKKOS_FORCEINLINE_FUNCTION static Pack own(Block const &block, int column)
@@ -327,7 +329,7 @@ struct SweptGatherFunctor
   }
 
   /// Momentum along one edge a -> b: the upwind velocity at the face between them goes with the mass.
-  KOKKOS_FORCEINLINE_FUNCTION static void transfer(Pack::Mask const &forward, Pack const &flow, Pack const &part,
+  KOKKOS_FORCEINLINE_FUNCTION static void transfer(LaneMask const &forward, Pack const &flow, Pack const &part,
                                                    Pack const &va, Pack const &vb, Pack const &beyond, Pack &gain_a,
                                                    Pack &gain_b)
   {
