@@ -197,7 +197,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     if (closes)
       closeMixedCells(mesh, s.pairs, s.state, scene.materials, dt, work);
     report.update = updatePairs(mesh, s.pairs, s.state, scene.materials, scene.lagrange, dt, work, next);
-    report.failure = failPairs(mesh, scene.kinematics, s.pairs, s.state, scene.materials, !closes, dt, work);
+    report.failure = failPairs(mesh, scene.kinematics, s.pairs, s.state, scene.materials, dt, work);
   }
   moveBodies(s.bodies, dt);
   moveTracers(pointField(scene, s), work.half, dt, scene.kinematics == Kinematics::Lagrangian, exchange, s.tracers);

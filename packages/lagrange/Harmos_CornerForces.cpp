@@ -24,24 +24,34 @@ struct CornerForceFunctor
   RowPointer<double, num_pair_fields> record;
   RowPointer<double, 8> corner_force;
   detail::CutPairs cut;
+  View<double *[3]> before;
 
-  /// The tension that each pair bears: failed ones none, the others what they would not fail at. failPairs leaves none
-  /// beyond, but the remap mixes: of vapour and condensed matter, both without pressure, the mean energy and volume may
-  /// stand at the cold curve's deepest tension.
-  KOKKOS_FORCEINLINE_FUNCTION Pack tensileStrength(Material const &material, int const pair[pack_width],
-                                                   int const cell[pack_width]) const
+  /// Tension: failed pairs bear none, the others what they would not fail at. failPairs leaves none beyond, but the
+  /// remap mixes: of vapour and condensed matter, both without pressure, the mean energy and volume may stand at the
+  /// cold curve's deepest tension. Compression: failPairs lets the void of its cell close before a failed pair loses
+  /// volume, and so before it resists.
+  KOKKOS_FORCEINLINE_FUNCTION detail::Bearing<Pack> bearing(Material const &material, int const pair[pack_width],
+                                                            int const cell[pack_width]) const
   {
+    detail::Bearing<Pack> result = {no_limit, 0.0, false};
     if (!state.tracks_damage || !canFail(material))
-      return no_limit;
+      return result;
     double const sound = Math::min(material.failure.spall_pressure, material.failure.spall_stress);
-    return packOf(
-        [&](int lane)
-        {
-          double const damage = state.damage(pair[lane]);
-          bool const failed =
-              damage >= least_failed_open && isFailed(material, damage, isOpen(pairs, state.record, cell[lane]));
-          return failed ? 0.0 : sound;
-        });
+    double strength[pack_width], room[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      double const damage = state.damage(pair[lane]);
+      double const open = damage >= least_failed_open ? voidFraction(pairs, state.record, cell[lane]) : 0.0;
+      bool const failed = damage >= least_failed_open && isFailed(material, damage, open > least_void);
+      strength[lane] = failed ? 0.0 : sound;
+      room[lane] = failed && open > least_void && options.closure == Closure::EqualStrain
+                       ? open / record(pair[lane], VolumeFraction)
+                       : 0.0;
+      result.has_room = result.has_room || room[lane] > 0.0;
+    }
+    result.tensile_strength = loadPack(strength);
+    result.room = loadPack(room);
+    return result;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void compute(int number, int const pair[pack_width], unsigned lanes) const
@@ -58,8 +68,11 @@ struct CornerForceFunctor
       Pack const cut_trace = any_cut ? cut.velocityGradient(pair, cell, v).trace() : Pack(0.0);
       auto const forces = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair),
                                                        detail::packedCorners(cell_node, position, cell), v,
-                                                       tensileStrength(material, pair, cell), cut_trace);
+                                                       bearing(material, pair, cell), cut_trace);
       f = forces.corner;
+      if (state.tracks_damage && canFail(material))
+        for (int lane = 0; lane < pack_width; ++lane)
+          before(pair[lane], BeforeBearing) = laneOf(forces.bearing, lane);
       if (any_cut)
         cut.addForces(pair, cell, forces.stress, forces.cell_volume, f);
     }
@@ -82,7 +95,7 @@ void launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &s
                        CornerForceFunctor<geometry>{options, pairs, state, pairs.material.data(), pairs.cell.data(),
                                                     materials.data(), mesh.cell_node, pairs.dof_node,
                                                     mesh.node_position, state.velocity, state.record, work.corner_force,
-                                                    detail::CutPairs(work.cut, pairs)});
+                                                    detail::CutPairs(work.cut, pairs), work.before});
 }
 
 } // namespace
@@ -91,6 +104,8 @@ void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work)
 {
   auto const launcher = mesh.geometry == Geometry::Planar ? launch<Geometry::Planar> : launch<Geometry::Axisymmetric>;
+  if (state.tracks_damage && work.before.extent(0) < static_cast<std::size_t>(pairs.num_pairs))
+    work.before = View<double *[3]>("Harmos::lagrange::before", pairs.num_pairs + pairs.num_pairs / 4);
   launcher(mesh, pairs, state, materials, options, work);
 }
 

@@ -20,18 +20,19 @@ struct Filling
 
 /// What void does to a failed pair that the update has strained from sv_n to `strained`.
 ///
-/// Compressed, it keeps its volume f A sv_n / sv while the void of its cell, `room`, lasts: f' = min(f sv_n / sv, f +
-/// room), sv' = sv f' / f. Where that leaves tension the pair shrinks to the volume without pressure, the rest is void.
+/// The part `bearing` of the strain met its pressure and changes its volume, sv' = sv_n (sv / sv_n)^bearing; void takes
+/// the rest while that of its cell, `room`, lasts: f' = min(f sv' / sv, f + room). Where that leaves tension the pair
+/// shrinks to the volume without pressure, the rest is void.
 KOKKOS_INLINE_FUNCTION Filling failedFilling(Material const &m, Filling const &strained, double energy, double sv_n,
-                                             double room, double others, bool closes)
+                                             double room, double others, double bearing)
 {
   Filling next = strained;
   double const sv = strained.specific_volume, fraction = strained.fraction;
-  if (closes && sv < sv_n && room > 0.0)
+  if (bearing < 1.0)
   {
-    double const whole = fraction * (sv_n / sv);
+    next.specific_volume = bearing > 0.0 ? sv_n * Math::pow(sv / sv_n, bearing) : sv_n;
+    double const whole = fraction * (next.specific_volume / sv);
     next.fraction = whole < fraction + room ? whole : 1.0 - others;
-    next.specific_volume = sv * (next.fraction / fraction);
   }
   if (equationOfState(m, next.specific_volume, energy).pressure >= 0.0)
     return next;
@@ -47,9 +48,8 @@ struct FailFunctor
   CellMaterialPairs pairs;
   PairState state;
   View<Material *> materials;
-  View<double *[2]> before;
+  View<double *[3]> before;
   double dt;
-  bool closes;
 
   KOKKOS_INLINE_FUNCTION double othersOf(int cell, int pair) const
   {
@@ -84,7 +84,7 @@ struct FailFunctor
     Filling const strained = {record(pair, VolumeFraction), record(pair, SpecificVolume)};
     double const room = Math::max(1.0 - others - strained.fraction, 0.0);
     Filling const next = failedFilling(m, strained, record(pair, InternalEnergy), before(pair, BeforeSpecificVolume),
-                                       room, others, closes);
+                                       room, others, before(pair, BeforeBearing));
     record(pair, VolumeFraction) = next.fraction;
     record(pair, SpecificVolume) = next.specific_volume;
   }
@@ -146,8 +146,6 @@ void keepForFailure(CellMaterialPairs const &pairs, PairState const &state, Lagr
 {
   if (!state.tracks_damage)
     return;
-  if (work.before.extent(0) < static_cast<std::size_t>(pairs.num_pairs))
-    work.before = View<double *[2]>("Harmos::lagrange::before", pairs.num_pairs + pairs.num_pairs / 4);
   auto const before = work.before;
   auto const record = state.record;
   Kokkos::parallel_for(
@@ -158,15 +156,14 @@ void keepForFailure(CellMaterialPairs const &pairs, PairState const &state, Lagr
 }
 
 FailureReport failPairs(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs &pairs, PairState const &state,
-                        View<Material *> const &materials, bool void_closes, double dt, LagrangeWork const &work)
+                        View<Material *> const &materials, double dt, LagrangeWork const &work)
 {
   FailureReport report;
   if (!state.tracks_damage)
     return report;
   long long moved = 0;
   Kokkos::parallel_reduce("Harmos::lagrange::failPairs", RangePolicy(0, mesh.num_cells),
-                          FailFunctor{mesh, pairs, state, materials, work.before, dt, void_closes}, report.failed,
-                          moved);
+                          FailFunctor{mesh, pairs, state, materials, work.before, dt}, report.failed, moved);
   // The void of a body-fitted cell stays inside of it.
   report.fractions_changed = moved > 0 && kinematics != Kinematics::Lagrangian;
   if (report.fractions_changed)

@@ -43,14 +43,15 @@ struct LagrangeWork
   View<double *> node_altitude;   // num_nodes: least altitude of the cells around [length]
   double largest_cell = 0.0;      // volume; with the altitudes
   CutGradients cut;               // of this time's filled regions; empty: no cut cell is told from a pure one
-  View<double *[2]> before;       // num_pairs, BeforeField: what failPairs needs of time n
+  View<double *[3]> before;       // num_pairs, BeforeField: what failPairs needs of time n
 };
 
 /// Columns of LagrangeWork::before.
 enum BeforeField : int
 {
   BeforeSpecificVolume = 0,
-  BeforePlasticStrain = 1
+  BeforePlasticStrain = 1,
+  BeforeBearing = 2 // part of the strain that met the forces: void takes the rest
 };
 
 /// Largest stable time step and the pair that sets it.
@@ -210,13 +211,13 @@ struct FailureReport
 /// After updatePairs: the damage of the pairs whose law can fail (damageAfter), and what failed pairs do. They have
 /// no deviator, and no tension: where p(sv, e) < 0 the pair takes the volume at which p = 0, and its fraction falls by
 /// the same factor: void opens. Mass, momentum and energy of the pair stay (what elastic energy it had is heat). When
-/// it is compressed, void in its cell closes first. A pure cell that opens becomes mixed.
+/// it is compressed, void in its cell closes first, without work: of A'/A the pair takes (A'/A)^b, b the part of the
+/// compression that computeCornerForces let its pressure meet (BeforeBearing). A pure cell that opens becomes mixed.
 ///
-/// \param void_closes False where closeMixedCells has already closed it.
 /// \param pairs cell_kind comes in a new view where kinds change.
 /// In `lagrangian` kinematics a cell keeps its region; its volume fraction is then the part that is no void.
 FailureReport failPairs(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs &pairs, PairState const &state,
-                        View<Material *> const &materials, bool void_closes, double dt, LagrangeWork const &work);
+                        View<Material *> const &materials, double dt, LagrangeWork const &work);
 
 /// Largest stable step of the owned pairs at state.velocity and x^n (needs work.dof_mass); ties: the lowest pair.
 ///

@@ -17,11 +17,13 @@ KOKKOS_INLINE_FUNCTION double voidFraction(CellMaterialPairs const &pairs,
   return rest;
 }
 
+constexpr double least_void = 1e-9; // what is less is round-off
+
 /// Whether there is void in a cell, beyond round-off.
 KOKKOS_INLINE_FUNCTION bool isOpen(CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,
                                    int cell)
 {
-  return voidFraction(pairs, record, cell) > 1e-9;
+  return voidFraction(pairs, record, cell) > least_void;
 }
 
 } // namespace Harmos

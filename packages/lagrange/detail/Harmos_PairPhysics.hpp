@@ -25,6 +25,25 @@ struct PairRecord
 
 constexpr double largest_energy_lag = 0.5; // of the pressure, that an expansion may take from it
 
+/// What failure leaves of a pair's resistance.
+template <class T>
+struct Bearing
+{
+  T tensile_strength; // in tension beyond it the pressure is zero
+  T room;             // void that a failed pair closes before it is compressed, over its own volume; else zero
+  bool has_room;      // any
+};
+
+/// The part of a step's compression, at the rate theta, that `room` leaves to the pair: what void closes does no work.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T comesToBear(T const &theta, T const &step, T const &room)
+{
+  T const compression = step * theta;
+  auto const exceeds = compression > room;
+  T const part = (compression - room) / select(exceeds, compression, T(1.0));
+  return select(exceeds, part, select(both(theta > T(0.0), room > T(0.0)), T(0.0), T(1.0)));
+}
+
 /// Minus the stress times the force volume, and the forces that it exerts where the cell's mean gradients act.
 template <class T>
 struct PairForces
@@ -32,14 +51,15 @@ struct PairForces
   Corners<T> corner;
   ScaledStress<T> stress; // times m sv / cell volume
   T cell_volume;
+  T bearing; // part of the strain that meets them
 };
 
-/// Corner forces on the nodes (equations: computeCornerForces). In tension beyond `tensile_strength` the pressure is
-/// zero. \param cut_trace What tr D of the filled region has beyond the cell's mean [1/s].
+/// Corner forces on the nodes (equations: computeCornerForces).
+/// \param cut_trace What tr D of the filled region has beyond the cell's mean [1/s].
 template <Geometry geometry, class T>
 KOKKOS_FORCEINLINE_FUNCTION PairForces<T> pairForces(Material const &material, LagrangeOptions const &options,
                                                      PairRecord<T> const &pair, Corners<T> const &x,
-                                                     Corners<T> const &v, T const &tensile_strength, T const &cut_trace)
+                                                     Corners<T> const &v, Bearing<T> const &bearing, T const &cut_trace)
 {
   auto const b = cellGradient<geometry>(x);
   MeanGradient<T> const &plane = planeOf(b);
@@ -59,9 +79,15 @@ KOKKOS_FORCEINLINE_FUNCTION PairForces<T> pairForces(Material const &material, L
   T const scaled_volume = scaled_mass * pair.specific_volume;
   // The internal energy is behind by `energy_lag`: de = - p sv tr D dt, dp = Gamma de / sv. In tension the lag damps.
   T const gamma_lag = options.energy_lag * gruneisenParameter(material, pair.specific_volume);
-  T const p = select(eos.pressure < T(-tensile_strength), T(0.0), eos.pressure);
+  T const p = select(eos.pressure < T(-bearing.tensile_strength), T(0.0), eos.pressure);
   T const pressure = p - Math::max(p, T(0.0)) * Math::min(T(gamma_lag * trace), T(largest_energy_lag));
-  T const spherical = scaled_volume * pressure + scaled_mass * sv_q;
+  T spherical = scaled_volume * pressure + scaled_mass * sv_q;
+  T part = 1.0;
+  if (bearing.has_room)
+  {
+    part = comesToBear(theta, T(2.0 * options.energy_lag), bearing.room);
+    spherical = spherical * part;
+  }
   ScaledStress<T> const stress = {spherical - scaled_volume * pair.deviator.xx,
                                   spherical - scaled_volume * pair.deviator.yy, -(scaled_volume * pair.deviator.xy),
                                   spherical + scaled_volume * (pair.deviator.xx + pair.deviator.yy)};
@@ -69,7 +95,7 @@ KOKKOS_FORCEINLINE_FUNCTION PairForces<T> pairForces(Material const &material, L
   HourglassVector<T> const gamma = hourglassVector(plane, inverse_area, x);
   T const coefficient = (0.25 * options.hourglass_viscosity) * (pair.mass * inverse_area * c_length);
   return {stressForces(b, stress, gamma, T(coefficient * gamma.amplitude(v.x)), T(coefficient * gamma.amplitude(v.y))),
-          stress, volumeOf(b)};
+          stress, volumeOf(b), part};
 }
 
 /// What the time step needs of a cell.
