@@ -23,11 +23,12 @@ struct PackedCorners
   Pack x[4], y[4];
 };
 
-/// Monotonised central difference of two neighbouring differences.
-KOKKOS_FORCEINLINE_FUNCTION Pack limitedDifference(Pack const &upstream, Pack const &downstream)
+/// Monotonised central difference of two neighbouring differences: at most `most` times the lesser. Where a part up to
+/// one half of it is taken, 2 keeps what comes of it between the neighbours.
+KOKKOS_FORCEINLINE_FUNCTION Pack limitedDifference(Pack const &upstream, Pack const &downstream, Pack const &most)
 {
   Pack const central = 0.5 * Math::fabs(upstream + downstream);
-  Pack const bound = 2.0 * Math::min(Math::fabs(upstream), Math::fabs(downstream));
+  Pack const bound = most * Math::min(Math::fabs(upstream), Math::fabs(downstream));
   Pack const size = select(upstream * downstream > Pack(0.0), Math::min(central, bound), Pack(0.0));
   return select(upstream > Pack(0.0), size, Pack(-size));
 }
@@ -128,14 +129,12 @@ struct SweptGatherFunctor
   }
 
   /// Beyond a wall at rest along which the node k + i of face k slips: the velocity of the node behind it, mirrored, so
-  /// that what grows from zero away from the wall keeps its slope there. \return false: no such wall, or the axis,
-  /// where corners have no equal shares.
+  /// that what grows from zero away from the wall keeps its slope there. \return false: no such wall.
   KOKKOS_INLINE_FUNCTION bool mirrorBeyond(int cell, int k, int i, int lane, GatheredFaces &gathered) const
   {
     int const a = stage.cell_node(cell, k), b = stage.cell_node(cell, (k + 1) & 3);
     int const condition = stage.node_condition[i == 0 ? a : b];
-    if (condition < 0 ||
-        (stage.geometry == Geometry::Axisymmetric && stage.position(a, 0) == 0.0 && stage.position(b, 0) == 0.0))
+    if (condition < 0)
       return false;
     Vector2 const along =
         normalised(Vector2{stage.position(b, 0) - stage.position(a, 0), stage.position(b, 1) - stage.position(a, 1)});
@@ -330,12 +329,12 @@ struct SweptGatherFunctor
 
   /// Momentum along one edge a -> b: the upwind velocity at the face between them goes with the mass.
   KOKKOS_FORCEINLINE_FUNCTION static void transfer(LaneMask const &forward, Pack const &flow, Pack const &part,
-                                                   Pack const &va, Pack const &vb, Pack const &beyond, Pack &gain_a,
-                                                   Pack &gain_b)
+                                                   Pack const &most, Pack const &va, Pack const &vb, Pack const &beyond,
+                                                   Pack &gain_a, Pack &gain_b)
   {
     Pack const up = select(forward, va, vb);
     Pack const down = select(forward, vb, va);
-    Pack const face = up + part * limitedDifference(up - beyond, down - up);
+    Pack const face = up + part * limitedDifference(up - beyond, down - up, most);
     Pack const to_down = flow * (face - down);
     Pack const to_up = flow * (up - face);
     gain_a += select(forward, to_up, to_down);
@@ -354,22 +353,28 @@ struct SweptGatherFunctor
       int const i = a == edges.behind ? 0 : 1, j = b == edges.ahead ? 0 : 1;
       Pack const beyond_x = select(forward, beyond.velocity_x[edges.behind][i], beyond.velocity_x[edges.ahead][j]);
       Pack const beyond_y = select(forward, beyond.velocity_y[edges.behind][i], beyond.velocity_y[edges.ahead][j]);
-      transfer(forward, flow, part, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
-      transfer(forward, flow, part, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
+      transfer(forward, flow, part, 2.0, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
+      transfer(forward, flow, part, 2.0, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
     }
   }
 
-  /// Part of what passes through the ring that face k sweeps which is the corner's at its first node a: the integral of
-  /// r N_a along it over that of r, (2 r_a + r_b) / (3 (r_a + r_b)). Nothing passes where both are zero.
-  KOKKOS_FORCEINLINE_FUNCTION Pack faceShare(Block const &block, int k) const
+  /// Part of what passes through the ring that a face from radius a to radius b sweeps which is the corner's at a: the
+  /// integral of r N_a along it over that of r, (2 a + b) / (3 (a + b)). Nothing passes where both are zero.
+  KOKKOS_FORCEINLINE_FUNCTION static Pack faceShare(Pack const &a, Pack const &b)
   {
-    return packOf(
-        [&](int lane)
-        {
-          double const a = stage.position(stage.cell_node(block.cell[lane], k), 0);
-          double const b = stage.position(stage.cell_node(block.cell[lane], (k + 1) & 3), 0);
-          return a + b > 0.0 ? (2.0 * a + b) / (3.0 * (a + b)) : 0.5;
-        });
+    auto const off_axis = a + b > Pack(0.0);
+    return select(off_axis, (2.0 * a + b) / select(off_axis, Pack(3.0 * (a + b)), Pack(1.0)), Pack(0.5));
+  }
+
+  /// Where along an edge from radius a to radius b the velocity goes with the mass that flows between its corners, as a
+  /// part of the edge from a: half-way but near the axis. So u = c r keeps its form, whatever the cells' widths: with
+  /// b^3 that leaves the cell at b and a^3 that enters at a (times density and c^2) both corners lose three times their
+  /// mass times their radius where a b (a + b) / 2 flows with the mass (a^2 + a b + b^2) / 3.
+  KOKKOS_FORCEINLINE_FUNCTION static Pack balancePoint(Pack const &a, Pack const &b)
+  {
+    Pack const square = a * a + a * b + b * b;
+    auto const off_axis = square > Pack(0.0);
+    return select(off_axis, a * (b + 2.0 * a) / select(off_axis, Pack(2.0 * square), Pack(1.0)), Pack(0.5));
   }
 
   /// Along the edges about an axis. What leaves through a face leaves its corners by faceShare; a corner loses its
@@ -379,12 +384,15 @@ struct SweptGatherFunctor
                                          PackedCorners &gain) const
   {
     Pack const loss = (out[0] + out[1]) + (out[2] + out[3]);
-    Pack need[4], flow[4];
-    for (int k = 0; k < 4; ++k)
-      need[k] = -(share[k] * loss);
+    Pack need[4], flow[4], radius[4];
     for (int k = 0; k < 4; ++k)
     {
-      Pack const part = faceShare(block, k);
+      need[k] = -(share[k] * loss);
+      radius[k] = packOf([&](int lane) { return stage.position(stage.cell_node(block.cell[lane], k), 0); });
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      Pack const part = faceShare(radius[k], radius[(k + 1) & 3]);
       need[k] += part * out[k];
       need[(k + 1) & 3] += (1.0 - part) * out[k];
     }
@@ -395,11 +403,15 @@ struct SweptGatherFunctor
       auto const forward = flow[a] > Pack(0.0);
       Pack const amount = Math::fabs(flow[a]);
       Pack const crossed = amount * per_mass / (share[a] + share[b]);
-      Pack const part = 0.5 * (1.0 - Math::min(Pack(1.0), crossed));
+      Pack const balance = balancePoint(radius[a], radius[b]);
+      Pack const upstream = select(forward, balance, Pack(1.0 - balance));
+      Pack const part = Math::max(upstream - 0.5 * Math::min(Pack(1.0), crossed), Pack(0.0));
+      Pack const most =
+          1.0 / Math::max(part, Pack(0.5)); // beyond half-way: so that the velocity stays between the nodes'
       Pack const beyond_x = select(forward, beyond.velocity_x[behind][1], beyond.velocity_x[b][0]);
       Pack const beyond_y = select(forward, beyond.velocity_y[behind][1], beyond.velocity_y[b][0]);
-      transfer(forward, amount, part, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
-      transfer(forward, amount, part, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
+      transfer(forward, amount, part, most, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
+      transfer(forward, amount, part, most, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
     }
   }
 
