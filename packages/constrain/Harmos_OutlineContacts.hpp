@@ -48,6 +48,9 @@ struct OutlineGap
   double gap;     // along it; negative: overlap [length]
 };
 
+/// Signed distance from the feature of a, its point nearest to b, to the surface of b at their present poses: for
+/// circles of radii r, R at a distance d of their centres d - r - R, within a hole R - r - d, for edges n.(x - x_edge)
+/// - r. [length]
 OutlineGap outlineGap(Shape const &a, Shape const &b, OutlinePlace const &place);
 
 /// \brief Where features of shape a lie within `reach` of surfaces of shape b: all places at which the two may touch,
