@@ -13,6 +13,7 @@
 #include <Harmos_History.hpp>
 #include <Harmos_PointLog.hpp>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,7 +41,7 @@ private:
   Cadence cadence_;
   bool regular_ = true;
   double next_time_ = 0.0;
-  double last_wall_ = 0.0;
+  double last_wall_ = -std::numeric_limits<double>::infinity(); // due at the start
 };
 
 /// Where the files of a run begin.

@@ -275,6 +275,23 @@ KOKKOS_FORCEINLINE_FUNCTION void storePack(double *x, Pack const &p)
 
 #endif
 
+/// a b + c, rounded once where the machine does that in one instruction. A compiler may fuse a product and a sum in
+/// one place and not in another: sums that are made in packs here and cell by cell there say what they are.
+KOKKOS_FORCEINLINE_FUNCTION double multiplyAdd(double a, double b, double c)
+{
+#if defined(HARMOS_VECTOR_TYPES) && defined(__FP_FAST_FMA)
+  return __builtin_fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+#ifdef HARMOS_VECTOR_TYPES
+KOKKOS_FORCEINLINE_FUNCTION Pack multiplyAdd(Pack const &a, Pack const &b, Pack const &c)
+{
+  return packOf([&](int lane) { return multiplyAdd(laneOf(a, lane), laneOf(b, lane), laneOf(c, lane)); });
+}
+#endif
+
 /// condition ? a : b, lane by lane.
 KOKKOS_INLINE_FUNCTION double select(bool condition, double a, double b)
 {

@@ -358,17 +358,18 @@ void convertPrescribed(DeckChecker const &check, ParameterList const &complete, 
   checkPrescribed(check, complete, deck);
 }
 
-Cadence cadenceOf(ParameterList const &list)
+/// What comes every cycle by itself does so only where the deck names no other rhythm; the list keeps what was chosen.
+Cadence cadenceOf(ParameterList &list)
 {
   Cadence cadence;
-  cadence.every_cycles = list.get<int>("every_cycles");
   cadence.every_time = list.get<double>("every_time");
   cadence.every_wall_seconds = list.get<double>("every_wall_seconds");
+  cadence.every_cycles = list.get("every_cycles", cadence.every_time > 0.0 || cadence.every_wall_seconds > 0.0 ? 0 : 1);
   cadence.at_end = list.get<bool>("at_end");
   return cadence;
 }
 
-void convertRunAndOutput(ParameterList const &run, ParameterList const &output, Deck &deck)
+void convertRunAndOutput(ParameterList const &run, ParameterList &output, Deck &deck)
 {
   deck.run.end_time = run.get<double>("end_time");
   deck.run.max_cycles = run.get<int>("max_cycles");
@@ -422,7 +423,7 @@ double speedScale(Deck const &deck)
 
 } // namespace
 
-Deck convertDeck(ParameterList const &complete, std::string const &file)
+Deck convertDeck(ParameterList complete, std::string const &file)
 {
   DeckChecker const check(file);
   Deck deck;

@@ -242,14 +242,24 @@ void includeMaterials(ParameterList &deck, std::string const &file, TextReader c
   }
 }
 
-/// The text of a file that this rank alone reads.
-std::string readWhole(std::string const &file)
+/// The text of a file, empty files too. \return Whether it could be read: a folder opens as a file does.
+bool readText(std::string const &file, std::string &text)
 {
   std::ifstream stream(file);
   std::ostringstream content;
-  if (!stream || !(stream.peek() == std::ifstream::traits_type::eof() || content << stream.rdbuf()))
+  if (stream && stream.peek() != std::ifstream::traits_type::eof())
+    content << stream.rdbuf();
+  text = content.str();
+  return stream.is_open() && !stream.bad() && content;
+}
+
+/// The text of a file that this rank alone reads.
+std::string readWhole(std::string const &file)
+{
+  std::string text;
+  if (!readText(file, text))
     throw DeckError(file + ": cannot be read");
-  return content.str();
+  return text;
 }
 
 ParameterList parseWith(std::string const &text, std::string const &file, std::vector<std::string> const &overrides,
@@ -280,16 +290,8 @@ std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm)
 {
   std::string text;
   int size = -1;
-  if (comm.getRank() == 0)
-  {
-    std::ifstream stream(file);
-    std::ostringstream content;
-    if (stream && (stream.peek() == std::ifstream::traits_type::eof() || content << stream.rdbuf()))
-    {
-      text = content.str();
-      size = static_cast<int>(text.size());
-    }
-  }
+  if (comm.getRank() == 0 && readText(file, text))
+    size = static_cast<int>(text.size());
   Teuchos::broadcast(comm, 0, &size);
   if (size < 0)
     throw DeckError(file + ": cannot be read");

@@ -33,7 +33,7 @@ std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm);
 Teuchos::ParameterList parseDeck(std::string const &text, std::string const &file,
                                  std::vector<std::string> const &overrides = {});
 /// Plain values from a complete list (completeDeck), with the checks that need several keys. \throws DeckError
-Deck convertDeck(Teuchos::ParameterList const &complete, std::string const &file);
+Deck convertDeck(Teuchos::ParameterList complete, std::string const &file);
 
 } // namespace Harmos
 

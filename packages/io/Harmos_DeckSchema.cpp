@@ -276,21 +276,25 @@ void addRun(ParameterList &list)
   add(list, "initial_dt", 0.0, number(not_negative, "s"), "largest step of the first cycle; 0: no limit");
 }
 
-void addCadence(ParameterList &list, int every_cycles, bool at_end, std::string const &what)
+/// \param by_itself It comes every cycle where nothing else is said.
+void addCadence(ParameterList &list, bool by_itself, bool at_end, std::string const &what)
 {
-  add(list, "every_cycles", every_cycles, integer(not_negative), what + " every so many cycles; 0: not by cycles");
   add(list, "every_time", 0.0, number(not_negative, "s"), what + " every interval of simulated time; 0: not by time");
   add(list, "every_wall_seconds", 0.0, number(not_negative, "s"), what + " by the wall clock; 0: not so");
   add(list, "at_end", at_end, rulesOf(KeyType::Bool), what + " after the last cycle");
+  KeyRules const count = integer(not_negative);
+  // The last: so it stands where what convertDeck chooses does.
+  add(list, "every_cycles", 0, by_itself ? optional(count, "1; beside every_time or every_wall_seconds 0") : count,
+      what + " every so many cycles; 0: not by cycles");
 }
 
 void addOutput(ParameterList &list)
 {
   add(list, "xdmf", true, rulesOf(KeyType::Bool), "fields as HDF5 with XDMF; false: no fields");
   add(list, "vtu", false, rulesOf(KeyType::Bool), "fields as VTK files too");
-  addCadence(list.sublist("history"), 1, true, "rows of history, contact, probes and tracers");
-  addCadence(list.sublist("fields"), 0, true, "fields");
-  addCadence(list.sublist("checkpoint"), 0, false, "a checkpoint");
+  addCadence(list.sublist("history"), true, true, "rows of history, contact, probes and tracers");
+  addCadence(list.sublist("fields"), false, true, "fields");
+  addCadence(list.sublist("checkpoint"), false, false, "a checkpoint");
 }
 
 } // namespace

@@ -178,7 +178,7 @@ private:
       else if (std::string const near = nearestWord(name, allowed); !near.empty())
         message += "; did you mean " + near + "?";
       if (active.any)
-        allowed.push_back("or a name with a map");
+        allowed.push_back(allowed.empty() ? "a name with a map" : "or a name with a map");
       fail(message + "; allowed: " + joined(allowed));
     }
   }

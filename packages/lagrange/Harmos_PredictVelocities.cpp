@@ -39,7 +39,7 @@ struct GatherCorners
   KOKKOS_FORCEINLINE_FUNCTION void add(Gathered &sum, int cell, int pair, int corner) const
   {
     double const *force = corner_force.row(pair) + 2 * corner;
-    sum.mass += fourShares(cell, corner) * record(pair, Mass);
+    sum.mass = multiplyAdd(fourShares(cell, corner), record(pair, Mass), sum.mass);
     sum.force[0] += force[0];
     sum.force[1] += force[1];
   }
@@ -207,10 +207,12 @@ struct PredictFunctor
       int const pair = gather.first_pair[item[i] >> 2], corner = item[i] & 3;
       Pack x, y;
       loadPoints([&](int lane) { return gather.corner_force.row(pair + lane) + 2 * corner; }, x, y);
-      Pack mass = packOf([&](int lane) { return gather.record(pair + lane, Mass); });
+      Pack const mass = packOf([&](int lane) { return gather.record(pair + lane, Mass); });
       if (gather.about_axis)
-        mass = mass * packOf([&](int lane) { return gather.fourShares((item[i] >> 2) + lane, corner); });
-      plain.mass += mass;
+        plain.mass = multiplyAdd(packOf([&](int lane) { return gather.fourShares((item[i] >> 2) + lane, corner); }),
+                                 mass, plain.mass);
+      else
+        plain.mass += mass;
       plain.force_x += x;
       plain.force_y += y;
     }

@@ -124,6 +124,17 @@ def test_impact_about_the_axis_keeps_axial_momentum_and_is_the_same_on_any_numbe
     clean(one)
 
 
+def test_gas_about_the_axis_is_the_same_on_any_number_of_ranks():
+    """Wide pure regions: nodes gather by packs in one place and one by one in another, as the ranks cut them."""
+    common = {"run/max_cycles": 20, "output/checkpoint/at_end": "true", "output/fields/at_end": "false"}
+    one = harmos(DECKS / "blast.yaml", common)
+    for n in (2, 4):
+        several = harmos(DECKS / "blast.yaml", common, ranks=n)
+        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
+        clean(several)
+    clean(one)
+
+
 def test_what_fails_about_the_axis_keeps_the_ledgers_and_is_the_same_on_any_number_of_ranks():
     common = {"materials/aluminium/tension_limit": 0.0, "materials/aluminium/spall_stress": 1.2e9,
               "output/checkpoint/at_end": "true", "output/fields/at_end": "false"}

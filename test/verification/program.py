@@ -50,6 +50,8 @@ def test_bad_decks_are_one_line_with_the_path_of_the_key():
     refused(["probes/far/position", "outside of the mesh"], "probes/far={position: [5.0, 0.0]}")
     refused(["tracers/lost/position", "void"], "tracers/lost={position: [0.1, 0.1]}")
     refused(["missing.yaml", "cannot be read"], deck=HERE / "missing.yaml")
+    refused(["decks", "cannot be read"], deck=HERE / "decks")
+    refused(["probes/p", "allowed: a name with a map"], "probes/p=[0.1, 0.1]")
 
 
 def test_overlapping_bodies_are_one_line_on_any_number_of_ranks():
@@ -269,6 +271,26 @@ def test_errors_are_measured_at_the_end_where_the_history_has_no_row():
         assert without.summary[key] == with_rows.summary[key], key
     assert without.summary["energy_error"] > 0.0
     clean(with_rows, without)
+
+
+def test_outputs_come_by_the_rhythm_that_is_given_and_no_other():
+    """Rows each 1e-4 s: the first at or after each multiple, the start and the end; nothing by cycles."""
+    end, every = 5e-4, 1e-4
+    still = {"bodies/ball/velocity": "[100.0, 0.0]", "run/end_time": end, "probes/p": "{position: [0.1, 0.1]}"}
+    r = harmos(BALL, {**still, "output/history/every_time": every, "output/fields/every_time": every, "output/checkpoint/every_time": every})
+    times, dt = r["time"], max(r["dt"])
+    assert r.summary["cycles"] > 20 and len(times) == 6, (r.summary["cycles"], times)
+    assert all(0 <= t - n * every < dt for n, t in enumerate(times)), times
+    assert harness.read_columns(r.directory / "probes.csv")["time"] == times
+    assert len(list(r.directory.glob("fields_*.h5"))) == 6
+    assert int(newest_checkpoint(r.directory).stem.split("_")[1]) == r["cycle"][-1]
+    clean(r)
+    r = harmos(BALL, {**still, "output/history/every_wall_seconds": 1e4, "output/fields/every_wall_seconds": 1e4, "output/fields/at_end": "true"})
+    assert r["time"] == [0.0, end] and len(list(r.directory.glob("fields_*.h5"))) == 2, r["time"]
+    clean(r)
+    r = harmos(BALL, {**still, "output/history/every_time": every, "output/history/every_cycles": 1})
+    assert len(r["time"]) == r.summary["cycles"] + 1
+    clean(r)
 
 
 def test_summary_and_switches_of_the_output():

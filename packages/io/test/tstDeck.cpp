@@ -44,6 +44,22 @@ TEST(Deck, Values_arriveAsWritten)
   EXPECT_EQ(deck.probes[0].name, "middle");
 }
 
+TEST(Deck, RowsOfHistory_comeEveryCycle_onlyWhereNoOtherRhythmIsGiven)
+{
+  auto const every_cycles = [](std::vector<std::string> const &overrides)
+  { return example(overrides).output.history.every_cycles; };
+  EXPECT_EQ(every_cycles({}), 1);
+  EXPECT_EQ(every_cycles({"output/history/at_end=false"}), 1);
+  EXPECT_EQ(every_cycles({"output/history/every_time=0.0"}), 1);
+  EXPECT_EQ(every_cycles({"output/history/every_time=0.1"}), 0);
+  EXPECT_EQ(every_cycles({"output/history/every_wall_seconds=10"}), 0);
+  EXPECT_EQ(every_cycles({"output/history/every_time=0.1", "output/history/every_cycles=5"}), 5);
+  // What was chosen stands among the defaults of the summary, and holds when that is read as a deck.
+  Deck const by_time = example({"output/history/every_time=0.1"});
+  EXPECT_NE(by_time.yaml.find("every_cycles"), std::string::npos);
+  EXPECT_EQ(readDeckText(by_time.yaml, "echo", {"output/history/every_time=0.0"}).output.history.every_cycles, 0);
+}
+
 TEST(Deck, Bodies_keepTheirOrder_andJoinedOnesShareAField)
 {
   Deck const deck = example();

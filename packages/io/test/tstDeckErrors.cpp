@@ -93,7 +93,7 @@ TEST(DeckErrors, WrongType_showsValueAndExpectation)
   EXPECT_STARTS(message({"run/end_time={a: 1}"}),
                 "deck.yaml: run/end_time: a map is of the wrong type; expected: number");
   EXPECT_STARTS(message({"run=3"}), "deck.yaml: run: 3 is no map; expected: a map with the keys end_time, max_cycles");
-  EXPECT_STARTS(message({"bodies/slider=3"}), "deck.yaml: bodies/slider: unknown key; allowed: or a name with a map");
+  EXPECT_STARTS(message({"bodies/slider=3"}), "deck.yaml: bodies/slider: unknown key; allowed: a name with a map");
 }
 
 TEST(DeckErrors, KeyWithoutValue_saysSo)

@@ -32,7 +32,7 @@ struct SweptNodesFunctor
       int const cell = stage.item[j] >> 2;
       int const corner = stage.item[j] & 3;
       double const *increment = stage.at(IncrementColumn + 2 * corner, cell);
-      g.four_mass += stage.fourShares(cell, corner) * *stage.at(NewMass, cell);
+      g.four_mass = multiplyAdd(stage.fourShares(cell, corner), *stage.at(NewMass, cell), g.four_mass);
       g.gain[0] += increment[0];
       g.gain[1] += increment[column_stride];
     }
@@ -54,7 +54,7 @@ struct SweptNodesFunctor
       {
         if (stage.dof_node(pair, corner) != dof || (pure < 0 && stage.isRigid(stage.pair_material[pair])))
           continue;
-        g.four_mass += stage.fourShares(cell, corner) * stage.record1(pair, Mass);
+        g.four_mass = multiplyAdd(stage.fourShares(cell, corner), stage.record1(pair, Mass), g.four_mass);
         if (pure >= 0)
           g.gain += {increment[0], increment[column_stride]};
       }
@@ -136,10 +136,13 @@ struct SweptNodesFunctor
     {
       int const item = stage.item[stage.first_item[first] + i];
       double const *increment = stage.at(IncrementColumn + 2 * (item & 3), item >> 2);
-      Pack mass = loadPack(stage.at(NewMass, item >> 2));
+      Pack const mass = loadPack(stage.at(NewMass, item >> 2));
       if (stage.aboutAxis())
-        mass = mass * packOf([&](int lane) { return stage.fourShares((item >> 2) + lane, item & 3); });
-      plain.four_mass += mass;
+        plain.four_mass =
+            multiplyAdd(packOf([&](int lane) { return stage.fourShares((item >> 2) + lane, item & 3); }), mass,
+                        plain.four_mass);
+      else
+        plain.four_mass += mass;
       plain.gain_x += loadPack(increment);
       plain.gain_y += loadPack(increment + column_stride);
     }
