@@ -106,8 +106,11 @@ KOKKOS_FORCEINLINE_FUNCTION Pack select(Pack::Mask const &condition, Pack const 
 }
 KOKKOS_FORCEINLINE_FUNCTION bool any(Pack::Mask const &mask)
 {
-#if defined(__AVX__) && !defined(__AVX512F__)
-  return __builtin_ia32_movmskpd256((Pack::Lanes)mask) != 0; // compilers would take the lanes out one by one
+  // compilers would take the lanes out one by one
+#if defined(__AVX512DQ__)
+  return __builtin_ia32_cvtq2mask512(mask) != 0;
+#elif defined(__AVX__) && !defined(__AVX512F__)
+  return __builtin_ia32_movmskpd256((Pack::Lanes)mask) != 0;
 #else
   long long all = 0;
   for (int lane = 0; lane < pack_width; ++lane)

@@ -30,11 +30,17 @@ KOKKOS_FORCEINLINE_FUNCTION void prefetchToWrite(void const *address)
 #endif
 }
 
-/// Ask for what a pack of rows of eight values, one line each, needs that comes after the pack from `row` on.
-KOKKOS_FORCEINLINE_FUNCTION void readAhead(RowPointer<double, 8> const &rows, int row)
+/// Ask for what a pack of rows, one after the other, needs that comes after the pack from `row` on.
+template <class T, int N>
+KOKKOS_FORCEINLINE_FUNCTION void readAhead(RowPointer<T, N> const &rows, int row)
 {
-  for (int lane = 0; lane < pack_width; ++lane)
+  constexpr int rows_a_line = N * sizeof(T) < 64 ? 64 / (N * sizeof(T)) : 1;
+  for (int lane = 0; lane < pack_width; lane += rows_a_line)
     prefetchToRead(rows.row(row + rows_ahead + lane));
+}
+KOKKOS_FORCEINLINE_FUNCTION void readAhead(int const *numbers, int row)
+{
+  prefetchToRead(numbers + row + rows_ahead);
 }
 KOKKOS_FORCEINLINE_FUNCTION void writeAhead(RowPointer<double, 8> const &rows, int row)
 {

@@ -3,6 +3,7 @@
 
 #include <Harmos_CellVoid.hpp>
 #include <Harmos_Failure.hpp>
+#include <Harmos_Prefetch.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -60,14 +61,23 @@ struct CornerForceFunctor
     int cell[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
       cell[lane] = cell_of[pair[lane]];
+    bool const run = lanes == all_lanes;
+    readAhead(material_of, pair[0]);
+    readAhead(cell_of, pair[0]);
+    readAhead(record, pair[0]);
+    readAhead(cell_node, cell[0]);
+    readAhead(dof_node, pair[0]);
+    readAhead(position, cell_node(cell[0], 2));
+    readAhead(velocity, dof_node(pair[0], 2));
     detail::Corners<Pack> f = {};
     if (material.rigid_body < 0)
     {
       bool const any_cut = actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell);
-      auto const v = detail::packedCorners(dof_node, velocity, pair);
+      auto const v = detail::packedCorners({dof_node, pair, run}, velocity);
+      PackedCornerRows const nodes(cell_node, cell, run && countsUp(cell_of + pair[0]));
       Pack const cut_trace = any_cut ? cut.velocityGradient(pair, cell, v).trace() : Pack(0.0);
-      auto const forces = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair),
-                                                       detail::packedCorners(cell_node, position, cell), v,
+      auto const forces = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair, run),
+                                                       detail::packedCorners(nodes, position), v,
                                                        bearing(material, pair, cell), cut_trace);
       f = forces.corner;
       if (state.tracks_damage && canFail(material))
@@ -77,7 +87,7 @@ struct CornerForceFunctor
         cut.addForces(pair, cell, forces.stress, forces.cell_volume, f);
     }
     Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
-    storeRows(row, lanes, [&](int lane) { return corner_force.row(pair[lane]); });
+    storeIndexedRows(row, lanes, corner_force, pair, run);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int block) const

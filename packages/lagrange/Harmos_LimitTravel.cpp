@@ -247,14 +247,13 @@ struct CrossingFunctor
   {
     constexpr double margin = 1.0 + 1e-12;
     int const material = material_of[first];
-    int differs = 0;
-    for (int lane = 1; lane < pack_width; ++lane)
-      differs |= material_of[first + lane] ^ material;
-    if (differs != 0)
+    if (anySet(loadNumbers(material_of + first) ^ countFrom(material, 0)))
       return false;
     Pack x, y;
-    loadPoints([&](int lane) { return half.row(first + lane); }, x, y);
-    Pack const limit = largest_part_of_altitude * packOf([&](int lane) { return altitude[node_of[first + lane]]; });
+    loadPointRun(half.row(first), x, y);
+    Pack const limit = largest_part_of_altitude *
+                       (countsUp(node_of + first) ? loadPack(altitude + node_of[first])
+                                                  : packOf([&](int lane) { return altitude[node_of[first + lane]]; }));
     Pack const travel2 = (margin * slow.dt * slow.dt) * (x * x + y * y);
     if (any(no(travel2 <= Math::min(owned, 1.0) * (limit * limit))))
       return false;

@@ -3,7 +3,10 @@
 
 #include <Harmos_JoinReducer.hpp>
 #include <Harmos_LoadPoints.hpp>
+#include <Harmos_Prefetch.hpp>
 #include <Harmos_RowPointer.hpp>
+
+#include <limits>
 
 namespace Harmos
 {
@@ -159,42 +162,34 @@ struct PredictFunctor
   /// four cells that are runs of pure cells of that material.
   KOKKOS_FORCEINLINE_FUNCTION bool inRuns(int first) const
   {
+    constexpr int lowest = std::numeric_limits<int>::min();
     int const node = node_of[first], material = material_of_dof[first];
     if (has_gravity || material < 0 || gather.materials[material].rigid_body >= 0)
       return false;
-    int differs = 0;
-    for (int lane = 0; lane < pack_width; ++lane)
-      differs |= (node_of[first + lane] ^ (node + lane)) | (material_of_dof[first + lane] ^ material);
-    if (differs != 0)
+    if (anySet((loadNumbers(node_of + first) ^ countFrom(node, 1)) |
+               (loadNumbers(material_of_dof + first) ^ countFrom(material, 0))))
       return false;
-    for (int lane = 0; lane < pack_width; ++lane)
-      differs |= (gather.first_item[node + lane + 1] - gather.first_item[node + lane]) ^ 4;
-    for (int lane = 0; lane < pack_width; ++lane)
-      differs |= node_condition[node + lane] < 0 ? 0 : 1;
-    if (differs != 0)
+    int const *first_item = gather.first_item + node;
+    LaneNumbers const conditioned = ~loadNumbers(node_condition + node) & countFrom(lowest, 0); // by their signs
+    if (anySet(((loadNumbers(first_item + 1) - loadNumbers(first_item)) ^ countFrom(4, 0)) | conditioned))
       return false;
-    int const *item = gather.item + gather.first_item[node];
-    for (int i = 0; i < 4; ++i)
-      for (int lane = 1; lane < pack_width; ++lane)
-        differs |= item[4 * lane + i] ^ (item[i] + 4 * lane);
-    return differs == 0 && inPureRuns(item, material);
+    int const *item = gather.item + *first_item;
+    return cornersCountUp(item, 4) && inPureRuns(item, material);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION bool inPureRuns(int const item[4], int material) const
   {
-    int differs = 0;
+    LaneNumbers differs = {};
     for (int i = 0; i < 4; ++i)
     {
-      int const cell = item[i] >> 2, pair = gather.first_pair[cell];
-      for (int lane = 0; lane < pack_width; ++lane)
-        differs |= gather.first_pair[cell + lane + 1] ^ (pair + lane + 1);
+      int const *pair = gather.first_pair + (item[i] >> 2);
+      differs |= loadNumbers(pair + 1) ^ countFrom(*pair + 1, 1);
     }
-    if (differs != 0)
+    if (anySet(differs))
       return false; // there may be no pairs to look at
     for (int i = 0; i < 4; ++i)
-      for (int lane = 0; lane < pack_width; ++lane)
-        differs |= gather.material_of[gather.first_pair[item[i] >> 2] + lane] ^ material;
-    return differs == 0;
+      differs |= loadNumbers(gather.material_of + gather.first_pair[item[i] >> 2]) ^ countFrom(material, 0);
+    return !anySet(differs);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Plain gatherRuns(int first) const
@@ -202,6 +197,18 @@ struct PredictFunctor
     Plain plain;
     plain.lanes = all_lanes;
     int const *item = gather.item + gather.first_item[node_of[first]];
+    int const last = gather.first_pair[item[3] >> 2]; // of the cells that come first here
+    readAhead(gather.corner_force, last);
+    readAhead(gather.record, last);
+    readAhead(velocity, first);
+    readAhead(node_of, first);
+    readAhead(material_of_dof, first);
+    readAhead(node_condition, node_of[first]);
+    readAhead(gather.first_item, node_of[first]);
+    readAhead(gather.first_pair, item[3] >> 2);
+    readAhead(gather.material_of, last);
+    for (int line = 0; line < 4 * pack_width; line += 16)
+      prefetchToRead(item + 4 * rows_ahead + line);
     for (int i = 0; i < 4; ++i)
     {
       int const pair = gather.first_pair[item[i] >> 2], corner = item[i] & 3;
@@ -256,7 +263,10 @@ struct PredictFunctor
     if (plain.lanes == 0u)
       return;
     Pack x, y;
-    loadPoints([&](int lane) { return velocity.row(Math::min(first + lane, num_dofs - 1)); }, x, y);
+    if (count == pack_width)
+      loadPointRun(velocity.row(first), x, y);
+    else
+      loadPoints([&](int lane) { return velocity.row(Math::min(first + lane, num_dofs - 1)); }, x, y);
     auto const massive = plain.mass > Pack(0.0);
     Pack const per_mass = select(massive, Pack(1.0 / select(massive, plain.mass, Pack(1.0))), Pack(0.0));
     x = x + per_mass * (dt * plain.force_x);
@@ -264,7 +274,7 @@ struct PredictFunctor
     if (plain.lanes == all_lanes)
     {
       storePack(dof_mass + first, plain.mass);
-      storePoints([&](int lane) { return predicted.row(first + lane); }, x, y);
+      storePointRun(predicted.row(first), x, y);
       return;
     }
     for (int lane = 0; lane < count; ++lane)

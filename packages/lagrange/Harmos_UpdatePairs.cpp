@@ -2,6 +2,7 @@
 #include <Harmos_Lagrange.hpp>
 
 #include <Harmos_JoinReducer.hpp>
+#include <Harmos_Prefetch.hpp>
 #include <detail/Harmos_LargestRate.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
@@ -51,10 +52,11 @@ TimeStepLimit limitFrom(detail::LargestRate const &largest, CellMaterialPairs co
 
 /// - sum_I f_I . v_mean_I, the power of the nodes on the pairs.
 KOKKOS_FORCEINLINE_FUNCTION Pack cornerPower(RowPointer<double, 8> const &corner_force, int const pair[pack_width],
-                                             detail::Corners<Pack> const &before, detail::Corners<Pack> const &half)
+                                             bool run, detail::Corners<Pack> const &before,
+                                             detail::Corners<Pack> const &half)
 {
   Pack f[8];
-  loadRows([&](int lane) { return corner_force.row(pair[lane]); }, f);
+  loadIndexedRows(corner_force, pair, run, f);
   Pack sum = 0.0;
   for (int k = 0; k < 4; ++k)
     sum += f[2 * k] * (before.x[k] + half.x[k]) + f[2 * k + 1] * (before.y[k] + half.y[k]);
@@ -138,23 +140,34 @@ struct UpdateFunctor
     for (int lane = 0; lane < pack_width; ++lane)
       cell[lane] = cell_of[pair[lane]];
     unsigned const owned_lanes = owned(lanes, cell);
-    auto const x = detail::packedCorners(cell_node, position, cell);
-    auto const v = detail::packedCorners(dof_node, half, pair);
+    readAhead(material_of, pair[0]);
+    readAhead(cell_of, pair[0]);
+    readAhead(record, pair[0]);
+    readAhead(corner_force, pair[0]);
+    readAhead(cell_node, cell[0]);
+    readAhead(dof_node, pair[0]);
+    readAhead(position, cell_node(cell[0], 2));
+    readAhead(velocity, dof_node(pair[0], 2));
+    readAhead(half, dof_node(pair[0], 2));
+    bool const run = lanes == all_lanes;
+    PackedCornerRows const dofs(dof_node, pair, run);
+    auto const x = detail::packedCorners({cell_node, cell, run && countsUp(cell_of + pair[0])}, position);
+    auto const v = detail::packedCorners(dofs, half);
     if (material.rigid_body >= 0)
     {
       includeRigid(x, v, pair, owned_lanes, sums);
       return;
     }
-    Pack const power = cornerPower(corner_force, pair, detail::packedCorners(dof_node, velocity, pair), v);
+    Pack const power = cornerPower(corner_force, pair, run, detail::packedCorners(dofs, velocity), v);
     auto const updated = detail::updatePair<geometry>(
-        material, detail::loadPackedRecord(record, pair), x, v, power, dt,
+        material, detail::loadPackedRecord(record, pair, run), x, v, power, dt,
         actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell) ? cut.velocityGradient(pair, cell, v)
                                                                                : detail::CutVelocityGradient<Pack>{});
     auto const &r = updated.record;
     Pack const fraction = packOf([&](int lane) { return record(pair[lane], VolumeFraction); });
     Pack const row[num_pair_fields] = {r.mass,           fraction,      r.specific_volume, r.internal_energy,
                                        r.plastic_strain, r.deviator.xx, r.deviator.yy,     r.deviator.xy};
-    storeRows(row, lanes, [&](int lane) { return record.row(pair[lane]); });
+    storeIndexedRows(row, lanes, record, pair, run);
 
     EosState<Pack> const eos = equationOfState(material, r.specific_volume, r.internal_energy);
     Pack const acoustic =

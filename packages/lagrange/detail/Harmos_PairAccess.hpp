@@ -43,24 +43,22 @@ KOKKOS_INLINE_FUNCTION Corners<double> cornerVelocities(CellMaterialPairs const 
 /// \defgroup PackedPairs The same for the pairs of a pack's lanes.
 /// \{
 
-/// Values at the corners: cells, their nodes and positions; or pairs, their dof nodes and velocities.
-KOKKOS_FORCEINLINE_FUNCTION Corners<Pack> packedCorners(RowPointer<int, 4> const &corner,
-                                                        RowPointer<double, 2> const &value, int const index[pack_width])
+/// Values at the corners.
+KOKKOS_FORCEINLINE_FUNCTION Corners<Pack> packedCorners(PackedCornerRows const &rows,
+                                                        RowPointer<double, 2> const &value)
 {
-  int const *row[pack_width];
-  for (int lane = 0; lane < pack_width; ++lane)
-    row[lane] = corner.row(index[lane]);
   Corners<Pack> c;
   for (int k = 0; k < 4; ++k)
-    loadPoints([&](int lane) { return value.row(row[lane][k]); }, c.x[k], c.y[k]);
+    loadCorner(rows, value, k, c.x[k], c.y[k]);
   return c;
 }
 
+/// \param run Whether the pairs are numbered one after the other.
 KOKKOS_FORCEINLINE_FUNCTION PairRecord<Pack> loadPackedRecord(RowPointer<double, num_pair_fields> const &record,
-                                                              int const pair[pack_width])
+                                                              int const pair[pack_width], bool run)
 {
   Pack field[num_pair_fields];
-  loadRows([&](int lane) { return record.row(pair[lane]); }, field);
+  loadIndexedRows(record, pair, run, field);
   PairRecord<Pack> r;
   r.mass = field[Mass];
   r.specific_volume = field[SpecificVolume];
@@ -107,9 +105,8 @@ KOKKOS_FORCEINLINE_FUNCTION void forPackedPairs(int const *material_of, int num_
 {
   int const first = block * pack_width;
   int const count = Math::min(pack_width, num_pairs - first);
-  bool uniform = count == pack_width;
-  for (int lane = 1; lane < count; ++lane)
-    uniform = uniform && material_of[first + lane] == material_of[first];
+  bool const uniform =
+      count == pack_width && !anySet(loadNumbers(material_of + first) ^ countFrom(material_of[first], 0));
   unsigned left = (1u << count) - 1u;
   do
   {

@@ -59,7 +59,7 @@ struct SweptFluxFunctor
     Pack q, gradient_x, gradient_y, lower, upper;
   };
 
-  /// Lane by lane, where the neighbours beyond a face are no run of cells.
+  /// Lane by lane, where the neighbours beyond a face are no run of cells, in the order of the faces.
   HARMOS_RARE_FUNCTION void gather(int first, int k, GatheredColumns &gathered) const
   {
     int const count = Math::min(pack_width, end - first);
@@ -83,7 +83,14 @@ struct SweptFluxFunctor
       beyond.face[k] = stage.at(CentroidX, stage.second_order && in_run ? stage.face_neighbour(first, k) >> 2 : first);
       if (!stage.second_order || in_run)
         continue;
-      gather(first, k, gathered);
+      if ((block & AcrossBit << k) != 0)
+      {
+        int const cell = stage.face_neighbour(first, k) >> 2, rows = stage.rowsLeft(cell);
+        joinColumns(stage.at(CentroidX, cell), stage.at(CentroidX, cell + rows), rows, num_neighbour_columns,
+                    &gathered[0][k * pack_width]);
+      }
+      else
+        gather(first, k, gathered);
       beyond.face[k] = &gathered[0][k * pack_width];
     }
     return beyond;

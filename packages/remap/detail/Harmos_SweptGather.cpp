@@ -48,7 +48,7 @@ struct SweptGatherFunctor
     return loadPack(block.own + column * column_stride);
   }
 
-  /// Lane by lane, where the neighbours beyond a face are no run of cells.
+  /// Lane by lane, where the neighbours beyond a face are no run of cells, in the order of the faces.
   HARMOS_RARE_FUNCTION void gatherFace(Block const &block, int k, GatheredFaces &gathered) const
   {
     for (int i = 0; i < pack_width; ++i)
@@ -76,6 +76,26 @@ struct SweptGatherFunctor
         gathered[num_face_columns + 2 * j][lane] = velocity[0];
         gathered[num_face_columns + 2 * j + 1][lane] = velocity[column_stride];
       }
+    }
+  }
+
+  /// The same where they are a run of cells on two tiles.
+  HARMOS_RARE_FUNCTION void joinFace(int first, int k, GatheredFaces &gathered) const
+  {
+    int const face = stage.face_neighbour(first, k), rows = stage.rowsLeft(face >> 2);
+    double const *const begin = stage.at(0, face >> 2), *const rest = stage.at(0, (face >> 2) + rows);
+    double *const joined = &gathered[0][k * pack_width];
+    int const columns = (FaceColumn + num_face_columns * (face & 3)) * column_stride;
+    joinColumns(begin + columns, rest + columns, rows, num_face_columns, joined);
+    bool const goes_beyond = stage.second_order;
+    for (int i = 0; i < 2; ++i)
+    {
+      int const column = velocityColumn(face, k, i, goes_beyond) * column_stride;
+      double *const velocity = joined + (num_face_columns + 2 * i) * column_stride;
+      if (goes_beyond)
+        joinColumns(begin + column, rest + column, rows, 2, velocity);
+      else
+        joinColumns(stage.at(0, first) + column, stage.at(0, first) + column, 0, 2, velocity);
     }
   }
 
@@ -154,8 +174,13 @@ struct SweptGatherFunctor
       }
       else
       {
-        Block const copy = block; // what a call sees would leave its registers for all blocks
-        gatherFace(copy, k, gathered);
+        if ((block.bits & AcrossBit << k) != 0)
+          joinFace(block.first, k, gathered);
+        else
+        {
+          Block const copy = block; // what a call sees would leave its registers for all blocks
+          gatherFace(copy, k, gathered);
+        }
         beyond.face[k] = &gathered[0][k * pack_width];
         for (int i = 0; i < 2; ++i)
           velocity[i] = &gathered[num_face_columns + 2 * i][k * pack_width];
@@ -287,7 +312,7 @@ struct SweptGatherFunctor
           stage.kinetic1[block.pair[lane]] = laneOf(q[KineticField], lane);
     q[Mass] = mass1;
     q[VolumeFraction] = 1.0;
-    storeRows(q, flowing, [&](int lane) { return stage.record1.row(block.pair[lane]); });
+    storeIndexedRows(q, flowing, stage.record1, block.pair, (block.bits & WholeBit) != 0);
   }
 
   /// The momentum that the corners gain. \return The kinetic energy before, of the pure owned cells.
@@ -393,6 +418,9 @@ struct SweptGatherFunctor
     if (block.pure == 0u)
       return;
     writeAhead(stage.record1, block.pair[0]);
+    readAhead(stage.first_pair, block.first);
+    readAhead(stage.face_neighbour, block.first);
+    readAhead(stage.pure_material, block.first);
     Neighbours beyond;
     GatheredFaces gathered;
     findNeighbours(block, beyond, gathered);

@@ -164,44 +164,58 @@ struct SweptGeometryFunctor
   {
     int const first = begin + block * pack_width;
     int const count = Math::min(pack_width, end - first);
-    unsigned lanes = 0u;
-    int lead = -1;
+    int common = ~0; // of the cells at work
     for (int lane = 0; lane < count; ++lane)
-      if ((stage.flags[first + lane] & PureCellBit) != 0)
-      {
-        lanes |= 1u << lane;
-        lead = lead < 0 ? lane : lead;
-      }
+      common &= stage.flags[first + lane];
+    bool const whole = count == pack_width && (common & PureCellBit) != 0;
     stage.blockOf(first) = 0;
-    if (lanes == 0u)
-      return;
     int cell[pack_width], pair[pack_width], flags[pack_width];
-    int common = ~0;
+    if (whole)
+      for (int lane = 0; lane < pack_width; ++lane)
+      {
+        cell[lane] = first + lane;
+        pair[lane] = stage.first_pair[first] + lane;
+        flags[lane] = stage.flags[cell[lane]];
+      }
+    else if (!selectPure(first, count, cell, pair, flags, common))
+      return;
+    int const leaving = compute(first, cell, pair, whole, flags, common);
+    constexpr int all_neighbours = 15 * NeighbourBit;
+    stage.blockOf(first) = leaving | (whole ? WholeBit | runsBeyond(first, common) : 0) |
+                           ((common & all_neighbours) == all_neighbours ? 0 : BoundaryBit);
+  }
+
+  /// The pure cells; the other lanes repeat the first of those. \return Whether there is one.
+  KOKKOS_INLINE_FUNCTION bool selectPure(int first, int count, int cell[pack_width], int pair[pack_width],
+                                         int flags[pack_width], int &common) const
+  {
+    int lead = 0;
+    while (lead < count && (stage.flags[first + lead] & PureCellBit) == 0)
+      ++lead;
+    if (lead == count)
+      return false;
+    common = ~0;
     for (int lane = 0; lane < pack_width; ++lane)
     {
-      cell[lane] = first + ((lanes >> lane & 1u) != 0u ? lane : lead);
+      bool const pure = lane < count && (stage.flags[first + lane] & PureCellBit) != 0;
+      cell[lane] = first + (pure ? lane : lead);
       pair[lane] = stage.first_pair[cell[lane]];
       flags[lane] = stage.flags[cell[lane]];
       common &= flags[lane];
     }
-    int const leaving = compute(first, cell, pair, flags, common);
-    constexpr int all_neighbours = 15 * NeighbourBit;
-    stage.blockOf(first) = leaving | (lanes == all_lanes ? WholeBit | runsBeyond(first, common) : 0) |
-                           ((common & all_neighbours) == all_neighbours ? 0 : BoundaryBit);
+    return true;
   }
 
-  /// RunBit of the faces beyond which the neighbours are a run of cells on a run of rows.
+  /// RunBit of the faces beyond which the neighbours are a run of cells on a run of rows, AcrossBit of those beyond
+  /// which the rows are in two tiles.
   KOKKOS_FORCEINLINE_FUNCTION int runsBeyond(int first, int common) const
   {
+    int const *face = stage.face_neighbour.row(first);
+    CornerNumbers const differs = differencesFromCount(face, 4); // a face's number is four times its cell's and more
     int runs = 0;
     for (int k = 0; k < 4; ++k)
-    {
-      int const face = stage.face_neighbour(first, k);
-      int differs = 0;
-      for (int lane = 1; lane < pack_width; ++lane)
-        differs |= stage.face_neighbour(first + lane, k) ^ (face + 4 * lane);
-      runs |= ((common & SameBeyondBit << k) != 0 && differs == 0 && stage.inTile(face >> 2) ? RunBit : 0) << k;
-    }
+      if ((common & SameBeyondBit << k) != 0 && differs[k] == 0)
+        runs |= (stage.inTile(face[k] >> 2) ? RunBit : AcrossBit) << k;
     return runs;
   }
 
@@ -237,26 +251,26 @@ struct SweptGeometryFunctor
   }
 
   /// \return LeaveBit of the faces.
-  KOKKOS_FORCEINLINE_FUNCTION int compute(int first, int const cell[pack_width], int const pair[pack_width],
+  KOKKOS_FORCEINLINE_FUNCTION int compute(int first, int const cell[pack_width], int const pair[pack_width], bool whole,
                                           int const flags[pack_width], int common) const
   {
     auto const store = [&](int column, Pack const &value) { storePack(stage.at(column, first), value); };
     readAhead(stage.record, pair[0]);
-    prefetchToRead(stage.position.row(stage.cell_node(cell[0], 2) + rows_ahead));
-    prefetchToRead(stage.half.row(stage.dof_node(pair[0], 2) + rows_ahead));
+    readAhead(stage.cell_node, cell[0]);
+    readAhead(stage.dof_node, pair[0]);
+    readAhead(stage.face_neighbour, cell[0]);
+    readAhead(stage.position, stage.cell_node(cell[0], 2));
+    readAhead(stage.half, stage.dof_node(pair[0], 2));
+    readAhead(stage.flags, cell[0]);
+    readAhead(stage.first_pair, cell[0]);
     PackedVector moved[4], middle[4], back[4];
+    PackedCornerRows const nodes(stage.cell_node, cell, whole), dofs(stage.dof_node, pair, whole);
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
-      int node[pack_width], dof[pack_width];
-      for (int lane = 0; lane < pack_width; ++lane)
-      {
-        node[lane] = stage.cell_node(cell[lane], k);
-        dof[lane] = stage.dof_node(pair[lane], k);
-      }
       PackedVector x, v;
-      loadPoints([&](int lane) { return stage.position.row(node[lane]); }, x.x, x.y);
-      loadPoints([&](int lane) { return stage.half.row(dof[lane]); }, v.x, v.y);
+      loadCorner(nodes, stage.position, k, x.x, x.y);
+      loadCorner(dofs, stage.half, k, v.x, v.y);
       store(CornerColumn + 2 * k, v.x);
       store(CornerColumn + 2 * k + 1, v.y);
       PackedVector const u = Pack(stage.dt) * v;
@@ -265,18 +279,18 @@ struct SweptGeometryFunctor
       if (stage.retargeted)
       {
         PackedVector home;
-        loadPoints([&](int lane) { return stage.target.row(node[lane]); }, home.x, home.y);
+        loadCorner(nodes, stage.target, k, home.x, home.y);
         homeward = u + (x - home);
       }
       back[k] = bitOf(flags, common, SweptCornerBit << k) * homeward;
       middle[k] = moved[k] - Pack(0.5) * back[k];
     }
-    Volume const whole = volumeOf(moved);
-    PackedVector const centroid = whole.centroid;
+    Volume const volume = volumeOf(moved);
+    PackedVector const centroid = volume.centroid;
     store(CentroidX, centroid.x);
     store(CentroidY, centroid.y);
-    store(MovedVolume, whole.volume);
-    storeFields(first, pair, whole.inverse);
+    store(MovedVolume, volume.volume);
+    storeFields(first, pair, whole, volume.inverse);
 
     int leaving = 0;
     HARMOS_UNROLL
@@ -291,10 +305,10 @@ struct SweptGeometryFunctor
       else
         swept = sweptRing(middle[k].x, edge, back[k], back[next], d_a, d_b);
       splitWhereEdgesCross<geometry>(middle[k].x, edge, back[k], back[next], d_a, d_b, swept);
-      Pack const volume = bitOf(flags, common, NeighbourBit << k) * swept.volume;
-      auto const leaves = volume > Pack(0.0);
+      Pack const out = bitOf(flags, common, NeighbourBit << k) * swept.volume;
+      auto const leaves = out > Pack(0.0);
       PackedVector const c = (middle[k] - centroid) + swept.centre;
-      store(FaceColumn + num_face_columns * k, volume);
+      store(FaceColumn + num_face_columns * k, out);
       store(OffsetColumn + 2 * k, select(leaves, c.x, Pack(0.0)));
       store(OffsetColumn + 2 * k + 1, select(leaves, c.y, Pack(0.0)));
       leaving |= (any(leaves) ? LeaveBit : 0) << k;
@@ -303,10 +317,11 @@ struct SweptGeometryFunctor
   }
 
   /// What is remapped, and the mass.
-  KOKKOS_FORCEINLINE_FUNCTION void storeFields(int first, int const pair[pack_width], Pack const &per_volume) const
+  KOKKOS_FORCEINLINE_FUNCTION void storeFields(int first, int const pair[pack_width], bool run,
+                                               Pack const &per_volume) const
   {
     Pack field[num_pair_fields];
-    loadRows([&](int lane) { return stage.record.row(pair[lane]); }, field);
+    loadIndexedRows(stage.record, pair, run, field);
     storePack(stage.at(OldMass, first), field[Mass]);
     field[DensityField] = field[Mass] * per_volume;
     if (stage.carries())

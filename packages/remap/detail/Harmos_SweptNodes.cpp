@@ -2,6 +2,7 @@
 #include <detail/Harmos_SweptStage.hpp>
 
 #include <Harmos_LoadPoints.hpp>
+#include <Harmos_Prefetch.hpp>
 
 namespace Harmos
 {
@@ -121,6 +122,8 @@ struct SweptNodesFunctor
     if (differs != 0)
       return false;
     int const *item = stage.item + stage.first_item[first];
+    for (int line = 0; line < 4 * pack_width; line += 16)
+      prefetchToRead(item + 4 * rows_ahead + line);
     bool wraps = false;
     for (int i = 0; i < 4; ++i)
       wraps = wraps || !stage.inTile(item[i] >> 2);
@@ -185,6 +188,9 @@ struct SweptNodesFunctor
   {
     int const first = begin + number * pack_width;
     int const count = Math::min(pack_width, end - first);
+    readAhead(stage.node_sweep, first);
+    readAhead(stage.first_item, first);
+    readAhead(stage.first_dof, first);
     Plain const plain = count == pack_width && inRuns(first) ? gatherRuns(first)
                                                              : gatherLanes(first, count, impulse_x, impulse_y, kinetic);
     if (plain.lanes == 0u)
@@ -192,13 +198,20 @@ struct SweptNodesFunctor
     int dof[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
       dof[lane] = stage.first_dof[Math::min(first + lane, end - 1)];
+    readAhead(stage.half, dof[0]);
     Pack x, y;
-    loadPoints([&](int lane) { return stage.half.row(dof[lane]); }, x, y);
+    bool const run = count == pack_width && countsUp(stage.first_dof + first);
+    if (opaque(run))
+      loadPointRun(stage.half.row(dof[0]), x, y);
+    else
+      loadPoints([&](int lane) { return stage.half.row(dof[lane]); }, x, y);
     Pack const per_mass = 4.0 / plain.four_mass;
     x = x + per_mass * plain.gain_x;
     y = y + per_mass * plain.gain_y;
     Pack const energy = 0.125 * plain.four_mass * (x * x + y * y);
-    if (plain.lanes == all_lanes)
+    if (opaque(plain.lanes == all_lanes && run))
+      storePointRun(stage.velocity1.row(dof[0]), x, y);
+    else if (plain.lanes == all_lanes)
       storePoints([&](int lane) { return stage.velocity1.row(dof[lane]); }, x, y);
     for (int lane = 0; lane < pack_width; ++lane)
       if ((plain.lanes >> lane & 1u) != 0u)

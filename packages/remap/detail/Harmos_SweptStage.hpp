@@ -56,7 +56,8 @@ enum SweptBlock : int
   LeaveBit = 1 << 4, // << k: material leaves one of the cells through face k
   all_leave_bits = 15 * LeaveBit,
   BoundaryBit = 1 << 8, // some cell has no neighbour beyond one of its faces
-  WholeBit = 1 << 9     // there are pack_width cells, all pure
+  WholeBit = 1 << 9,    // there are pack_width cells, all pure
+  AcrossBit = 1 << 10   // << k: as RunBit, but the run's rows begin in one tile and end in another
 };
 
 /// Rows of a tile of SweptWindow, and what lies between its columns: a row's fall on different sets of the cache.
@@ -90,6 +91,18 @@ SweptChunks sweptChunks(Mesh const &mesh);
 /// Rows for the chunks; those of order 3 alone are `spreads`.
 SweptWindow sweptWindow(SweptChunks const &chunks);
 View<double *[4]> sweptSpreads(SweptChunks const &chunks);
+
+/// `columns` columns of pack_width rows, the first `rows` of them at `begin`, what is left at `rest` in another tile.
+/// `joined` and what follows a column of it for pack_width rows are overwritten; columns are column_stride apart.
+HARMOS_RARE_FUNCTION inline void joinColumns(double const *begin, double const *rest, int rows, int columns,
+                                             double *joined)
+{
+  for (int c = 0; c < columns; ++c, begin += column_stride, rest += column_stride, joined += column_stride)
+  {
+    storePack(joined, loadPack(begin)); // reads beyond the tile's rows: the 8 between columns
+    storePack(joined + rows, loadPack(rest));
+  }
+}
 
 /// Input and output of stage 1, as the kernels see it: many short launches, which Views would have to be copied for.
 struct SweptStage
@@ -147,6 +160,8 @@ struct SweptStage
   {
     return (cell & (tile_rows - 1)) + pack_width <= tile_rows;
   }
+  /// Rows from a cell's on to the end of its tile.
+  KOKKOS_FORCEINLINE_FUNCTION static int rowsLeft(int cell) { return tile_rows - (cell & (tile_rows - 1)); }
   KOKKOS_FORCEINLINE_FUNCTION int &blockOf(int cell) const { return block[(cell & mask) / pack_width]; }
   /// Whether the mesh ends at a face of a pure cell, and the limiter minds it.
   KOKKOS_FORCEINLINE_FUNCTION bool endsAt(int c, int face) const

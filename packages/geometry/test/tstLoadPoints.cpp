@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_LoadPoints.hpp>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace Harmos;
+
+namespace
+{
+
+/// 0, 1, 2, ... in rows.
+View<double *[2]> countedPoints(int count)
+{
+  View<double *[2]> const points("points", count);
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < 2; ++j)
+      points(i, j) = 2 * i + j;
+  return points;
+}
+
+/// Rows of corners that count upwards by `step`.
+std::vector<int> countedCorners(int step)
+{
+  std::vector<int> corner;
+  for (int lane = 0; lane < pack_width; ++lane)
+    for (int first : {5, 6, 30, 29})
+      corner.push_back(first + lane * step);
+  return corner;
+}
+
+} // namespace
+
+TEST(LoadPoints, anyRows_areLoadedAndStored)
+{
+  auto const points = countedPoints(3 * pack_width);
+  auto const row = [&](int lane) { return &points((5 * lane) % (3 * pack_width), 0); };
+  Pack x, y;
+  loadPoints(row, x, y);
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    EXPECT_EQ(laneOf(x, lane), row(lane)[0]);
+    EXPECT_EQ(laneOf(y, lane), row(lane)[1]);
+  }
+  storePoints(row, y, x);
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    EXPECT_EQ(row(lane)[0], laneOf(y, lane));
+    EXPECT_EQ(row(lane)[1], laneOf(x, lane));
+  }
+}
+
+TEST(LoadPoints, run_isLoadedAndStoredAsItsRowsAre)
+{
+  auto const points = countedPoints(pack_width + 2);
+  Pack x, y;
+  loadPointRun(&points(1, 0), x, y);
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    EXPECT_EQ(laneOf(x, lane), 2 * (lane + 1));
+    EXPECT_EQ(laneOf(y, lane), 2 * (lane + 1) + 1);
+  }
+  storePointRun(&points(1, 0), -1.0 * x, 2.0 * y);
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    EXPECT_EQ(points(lane + 1, 0), -laneOf(x, lane));
+    EXPECT_EQ(points(lane + 1, 1), 2.0 * laneOf(y, lane));
+  }
+  EXPECT_EQ(points(0, 1), 1.0);
+  EXPECT_EQ(points(pack_width + 1, 0), 2.0 * (pack_width + 1));
+}
+
+TEST(LoadPoints, corners_areThoseOfEachLane)
+{
+  auto const points = countedPoints(100);
+  for (int moved = -1; moved < 4 * pack_width; ++moved) // none, then one corner elsewhere
+  {
+    View<int *[4]> const corner("corner", pack_width + 3);
+    std::vector<int> const counted = countedCorners(1);
+    for (int i = 0; i < 4 * pack_width; ++i)
+      corner(i / 4 + 3, i % 4) = counted[i] + (i == moved ? 17 : 0);
+    int index[pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+      index[lane] = lane + 3;
+    PackedCornerRows const rows(corner, index, true);
+    EXPECT_EQ(rows.count_up, moved < 0 || pack_width == 1);
+    EXPECT_FALSE(PackedCornerRows(corner, index, false).count_up);
+    for (int k = 0; k < 4; ++k)
+    {
+      Pack x, y;
+      loadCorner(rows, points, k, x, y);
+      for (int lane = 0; lane < pack_width; ++lane)
+      {
+        EXPECT_EQ(laneOf(x, lane), points(corner(index[lane], k), 0));
+        EXPECT_EQ(laneOf(y, lane), points(corner(index[lane], k), 1));
+      }
+    }
+  }
+}
+
+TEST(LaneNumbers, columnsThatCountUp_differFromNoCount)
+{
+  for (int step : {1, 4})
+  {
+    auto corner = countedCorners(step);
+    EXPECT_TRUE(cornersCountUp(corner.data(), step));
+    for (int i = 4; i < 4 * pack_width; ++i)
+    {
+      corner[i] ^= 1 << (i % 31);
+      EXPECT_FALSE(cornersCountUp(corner.data(), step));
+      auto const differs = differencesFromCount(corner.data(), step);
+      for (int k = 0; k < 4; ++k)
+        EXPECT_EQ(differs[k] != 0, k == i % 4);
+      corner[i] ^= 1 << (i % 31);
+    }
+  }
+}
+
+TEST(LaneNumbers, numbersOutOfCount_areSeen)
+{
+  std::vector<int> numbers(pack_width);
+  for (int lane = 0; lane < pack_width; ++lane)
+    numbers[lane] = 9 + lane;
+  EXPECT_TRUE(countsUp(numbers.data()));
+  EXPECT_FALSE(anySet(loadNumbers(numbers.data()) ^ countFrom(9, 1)));
+  for (int lane = 1; lane < pack_width; ++lane)
+  {
+    numbers[lane] -= 1;
+    EXPECT_FALSE(countsUp(numbers.data()));
+    numbers[lane] += 1;
+  }
+}
