@@ -58,6 +58,9 @@ std::string folderProblem(Run const &run)
 /// Contact looks for its partner as far as the square root of a cell's area: the halo holds what lies two cells away.
 void checkReach(Deck const &deck)
 {
+  std::vector<Boundary> const boundary(deck.boundary, deck.boundary + num_boundary_sides);
+  if (deck.prescribed.kind != FieldKind::None || !contactCanArise(deck.kinematics, deck.fields.size(), boundary))
+    return;
   double longest[2] = {0.0, 0.0}, shortest[2] = {1e300, 1e300};
   AxisSpec const *const axis[2] = {&deck.x, &deck.y};
   for (int d = 0; d < 2; ++d)
@@ -70,7 +73,7 @@ void checkReach(Deck const &deck)
   double const aspect = std::max(longest[0] / shortest[1], longest[1] / shortest[0]);
   if (aspect > 4.0)
     throw DeckError("mesh: cells of aspect ratio up to " + std::to_string(aspect) +
-                    " run on one rank only; expected: at most 4");
+                    ", across which contact reaches on one rank only; expected: at most 4");
 }
 
 Mesh makeLocalMesh(Run &run)

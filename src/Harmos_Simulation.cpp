@@ -4,6 +4,7 @@
 #include "Harmos_Interrupt.hpp"
 #include "Harmos_Run.hpp"
 #include "Harmos_ShapeErrors.hpp"
+#include "Harmos_TargetMesh.hpp"
 #include "Harmos_Version.hpp"
 
 #include <Harmos_DeckSchema.hpp>
@@ -267,12 +268,16 @@ void reportRange(Run &run, CycleReport const &report, double before)
 }
 
 /// One cycle. What a kernel's host code throws is a failed run; on several ranks main ends them all, since the others
-/// may wait for the one that threw.
+/// may wait for the one that threw, unless all throw alike.
 CycleReport cycle(Run &run)
 {
   try
   {
     return advance(run.scene, run.state, run.times);
+  }
+  catch (TargetMeshError const &error)
+  {
+    throw RunFailure("cycle " + std::to_string(run.state.cycle + 1) + ": " + error.what());
   }
   catch (std::exception const &error)
   {

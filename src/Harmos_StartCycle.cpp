@@ -61,8 +61,8 @@ void checkScene(Scene const &scene)
   if (scene.exchange->size() == 1)
     return;
   require(scene.kinematics != Kinematics::Lagrangian, "lagrangian kinematics runs on one rank only");
-  require(!(scene.exchange->max(largestAspectRatio(scene.mesh)) > largest_shared_aspect),
-          "the mesh has cells of an aspect ratio above 4, which run on one rank only");
+  std::string const why = whyNotShared(scene);
+  require(why.empty(), "the mesh has " + why);
 }
 
 void checkState(Scene const &scene, CycleState const &s)

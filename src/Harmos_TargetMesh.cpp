@@ -4,8 +4,6 @@
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_StateExchange.hpp>
 
-#include <stdexcept>
-
 namespace Harmos
 {
 
@@ -24,6 +22,27 @@ double largestAspectRatio(Mesh const &mesh)
   return largest;
 }
 
+bool contactCanArise(Kinematics kinematics, std::size_t num_materials, std::vector<Boundary> const &boundary)
+{
+  for (Boundary const &b : boundary)
+    if (b.kind == BoundaryKind::ContactWall)
+      return true;
+  return kinematics != Kinematics::Single && num_materials > 1;
+}
+
+std::string whyNotShared(Scene const &scene)
+{
+  if (scene.exchange->size() == 1 || scene.prescribed.kind != FieldKind::None)
+    return "";
+  auto const device = scene.boundary.boundary;
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), device);
+  std::vector<Boundary> const boundary(host.data(), host.data() + host.extent(0));
+  if (!contactCanArise(scene.kinematics, scene.materials.extent(0), boundary) ||
+      !(scene.exchange->max(largestAspectRatio(scene.mesh)) > largest_shared_aspect))
+    return "";
+  return "cells of an aspect ratio above 4, across which contact reaches on one rank only";
+}
+
 View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
 {
   if (!scene.target_mesh)
@@ -38,9 +57,9 @@ View<double *[2]> moveToTarget(Scene &scene, CycleState &s, double dt)
   separateGeometry(mesh);
   updateGeometry(mesh);
   if (scene.exchange->max(countInvertedCells(mesh)) > 0.0)
-    throw std::runtime_error("the target mesh has cells that are not strictly convex");
-  if (scene.exchange->size() > 1 && scene.exchange->max(largestAspectRatio(mesh)) > largest_shared_aspect)
-    throw std::runtime_error("the target mesh has cells of an aspect ratio above 4, which run on one rank only");
+    throw TargetMeshError("the target mesh has cells that are not strictly convex");
+  if (std::string const why = whyNotShared(scene); !why.empty())
+    throw TargetMeshError("the target mesh has " + why);
   computeNodeAltitudes(mesh, s.work);
   s.rigid_rows = {}; // they belong to the cells
   return start;

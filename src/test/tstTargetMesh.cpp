@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectKept.hpp"
+#include <Harmos_TargetMesh.hpp>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,17 @@ TEST(TargetMesh, thatSwings_keepsMassMomentumAndEnergyAndTheMotion)
     EXPECT_NEAR(moving.state.tracers[0].position[d], still.state.tracers[0].position[d], 1e-3);
   EXPECT_EQ(locatePoints(moving.scene.mesh, {moving.state.tracers[0].position}, moving.alone)[0],
             moving.state.tracers[0].cell);
+}
+
+TEST(TargetMesh, contactArises_betweenFieldsOrWithContactWallsAlone)
+{
+  std::vector<Boundary> walls(4);
+  EXPECT_TRUE(contactCanArise(Kinematics::Xfem, 2, walls));
+  EXPECT_FALSE(contactCanArise(Kinematics::Xfem, 1, walls));
+  EXPECT_FALSE(contactCanArise(Kinematics::Single, 2, walls));
+  walls[2].kind = BoundaryKind::ContactWall;
+  EXPECT_TRUE(contactCanArise(Kinematics::Xfem, 1, walls));
+  EXPECT_TRUE(contactCanArise(Kinematics::Single, 2, walls));
 }
 
 TEST(TargetMesh, thatCannotBe_isRefused)

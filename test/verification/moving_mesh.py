@@ -132,6 +132,37 @@ def test_every_number_of_ranks_gives_the_same_bits():
         clean(one, start)
 
 
+def test_cells_of_any_length_are_shared_where_nothing_can_touch():
+    setting = {"output/fields/every_time": 0.0, "output/fields/at_end": "false", "output/checkpoint/at_end": "true",
+               "run/max_cycles": 30}
+    one = harmos("shock_tube/explosion.yaml", setting)
+    x = nodes(one.directory).reshape(49, 49, 2)
+    a, b = x[1:, 1:] - x[:-1, :-1], x[1:, :-1] - x[:-1, 1:]
+    area = 0.5 * numpy.abs(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+    measure = 0.5 * numpy.maximum((a**2).sum(-1), (b**2).sum(-1)) / area
+    print(f"  longest diagonal squared over twice the area: {measure.max():.2f}, of 1 : 4 it is 2.125")
+    assert measure.max() > 2.2
+    for ranks in (2, 4):
+        several = harmos("shock_tube/explosion.yaml", setting, ranks=ranks)
+        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
+        clean(several)
+    clean(one)
+
+
+def test_cells_too_long_for_contact_on_several_ranks_end_the_run_in_order():
+    setting = {"mesh/y/cells": 76, "mesh/smoother": "{follow: 1.0, relax: 0.0}", "run/max_cycles": 90,
+               "output/checkpoint/every_cycles": 30, "output/checkpoint/at_end": "true", "output/fields/at_end": "false"}
+    r = harmos(HERE / "rigid_ball.yaml", setting, ranks=2, expect=3)
+    lines = [line for line in r.text.splitlines() if line.startswith("harmos:")]
+    assert len(lines) == 1 and "aspect ratio above 4" in lines[0] and newest_checkpoint(r.directory).name in lines[0], r.text
+    assert r.summary["status"] == "failed" and 60 < r.summary["cycles"] < 90
+    # One rank goes on from there, to what it would have come to alone.
+    on = harmos(HERE / "rigid_ball.yaml", setting, directory=r.directory, extra=["--restart", str(r.directory)])
+    alone = harmos(HERE / "rigid_ball.yaml", setting)
+    same_state(newest_checkpoint(on.directory), newest_checkpoint(alone.directory))
+    clean(r, alone)
+
+
 def test_restart_goes_on_with_the_mesh_where_it_was():
     setting = {**BALL, "run/max_cycles": 60, "output/checkpoint/every_cycles": 30}
     whole = harmos(HERE / "rigid_ball.yaml", setting)
