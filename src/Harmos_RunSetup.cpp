@@ -56,23 +56,21 @@ std::string folderProblem(Run const &run)
 }
 
 /// Contact looks for its partner as far as the square root of a cell's area: the halo holds what lies two cells away.
-void checkReach(Deck const &deck)
+void checkReach(Deck const &deck, HostMesh const &mesh)
 {
   std::vector<Boundary> const boundary(deck.boundary, deck.boundary + num_boundary_sides);
   if (deck.prescribed.kind != FieldKind::None || !contactCanArise(deck.kinematics, deck.fields.size(), boundary))
     return;
-  double longest[2] = {0.0, 0.0}, shortest[2] = {1e300, 1e300};
-  AxisSpec const *const axis[2] = {&deck.x, &deck.y};
-  for (int d = 0; d < 2; ++d)
-    for (int i = 0; i < axis[d]->cells; ++i)
-    {
-      double const size = axis[d]->position(i + 1) - axis[d]->position(i);
-      longest[d] = std::max(longest[d], size);
-      shortest[d] = std::min(shortest[d], size);
-    }
-  double const aspect = std::max(longest[0] / shortest[1], longest[1] / shortest[0]);
-  if (aspect > 4.0)
-    throw DeckError("mesh: cells of aspect ratio up to " + std::to_string(aspect) +
+  double most = 0.0;
+  for (std::array<int, 4> const &cell : mesh.cell)
+  {
+    Quadrilateral q;
+    for (int k = 0; k < 4; ++k)
+      q[k] = {mesh.node[cell[k]][0], mesh.node[cell[k]][1]};
+    most = std::max(most, elongation(q));
+  }
+  if (most > largest_shared_aspect)
+    throw DeckError("mesh: cells of aspect ratio up to " + std::to_string(most + std::sqrt(most * most - 1.0)) +
                     ", across which contact reaches on one rank only; expected: at most 4");
 }
 
@@ -93,7 +91,7 @@ Mesh makeLocalMesh(Run &run)
   if (static_cast<std::size_t>(ranks) > run.whole.mesh.cell.size())
     throw DeckError("mesh: " + std::to_string(run.whole.mesh.cell.size()) + " cells cannot be shared by " +
                     std::to_string(ranks) + " ranks");
-  checkReach(run.deck);
+  checkReach(run.deck, run.whole.mesh);
   Mesh mesh = buildLocalMesh(run.whole.mesh, partitionCells(run.whole.mesh, ranks), run.comm->getRank(), halo_layers);
   setGeometry(mesh, run.deck.geometry);
   run.exchange = std::make_unique<TpetraExchange>(run.comm, mesh);
@@ -236,7 +234,7 @@ void warnOfLongCells(Run &run)
   if (deck.kinematics != Kinematics::Xfem || deck.fields.size() < 2 || run.scene.prescribed.kind != FieldKind::None ||
       deck.x.cells == 1 || deck.y.cells == 1)
     return;
-  double const aspect = run.exchange->max(largestAspectRatio(run.scene.mesh));
+  double const aspect = run.exchange->max(largestElongation(run.scene.mesh));
   if (!(aspect > largest_shared_aspect))
     return;
   char text[200];

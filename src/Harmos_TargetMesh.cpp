@@ -7,16 +7,14 @@
 namespace Harmos
 {
 
-double largestAspectRatio(Mesh const &mesh)
+double largestElongation(Mesh const &mesh)
 {
   double largest = 0.0;
   Kokkos::parallel_reduce(
-      "Harmos::largestAspectRatio", RangePolicy(0, mesh.num_cells),
+      "Harmos::largestElongation", RangePolicy(0, mesh.num_cells),
       KOKKOS_LAMBDA(int cell, double &most) {
-        Quadrilateral const q = cellQuadrilateral(mesh, cell);
-        double const diagonal = Math::max(dot(q[2] - q[0], q[2] - q[0]), dot(q[3] - q[1], q[3] - q[1]));
         if (mesh.cell_depth(cell) == 0)
-          most = Math::max(most, 0.5 * diagonal / mesh.cell_area(cell));
+          most = Math::max(most, elongation(cellQuadrilateral(mesh, cell)));
       },
       Kokkos::Max<double>(largest));
   return largest;
@@ -38,7 +36,7 @@ std::string whyNotShared(Scene const &scene)
   auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), device);
   std::vector<Boundary> const boundary(host.data(), host.data() + host.extent(0));
   if (!contactCanArise(scene.kinematics, scene.materials.extent(0), boundary) ||
-      !(scene.exchange->max(largestAspectRatio(scene.mesh)) > largest_shared_aspect))
+      !(scene.exchange->max(largestElongation(scene.mesh)) > largest_shared_aspect))
     return "";
   return "cells of an aspect ratio above 4, across which contact reaches on one rank only";
 }

@@ -11,10 +11,17 @@
 namespace Harmos
 {
 
-/// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2. Owned cells.
-double largestAspectRatio(Mesh const &mesh);
+/// Longest diagonal's square over the area, halved: of a rectangle of sides a < b it is (b/a + a/b)/2.
+KOKKOS_INLINE_FUNCTION double elongation(Quadrilateral const &q)
+{
+  Vector2 const d = q[2] - q[0], e = q[3] - q[1];
+  return Math::max(dot(d, d), dot(e, e)) / cross(d, e);
+}
 
-/// largestAspectRatio of a rectangle with sides 1 : 4, the longest cells on several ranks (doc/decisions/0003).
+/// Of the owned cells.
+double largestElongation(Mesh const &mesh);
+
+/// elongation of a rectangle with sides 1 : 4, the longest cells on several ranks (doc/decisions/0003).
 constexpr double largest_shared_aspect = 2.125 * (1.0 + 1e-9);
 
 /// Whether bodies, or bodies and walls, can touch: contact alone reaches for a length, all else for neighbours.

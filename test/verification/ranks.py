@@ -94,13 +94,15 @@ def test_cells_twice_as_long_as_wide_with_tracers_and_probes():
 def test_lagrangian_and_narrow_cells_are_refused_on_several_ranks():
     for deck, more, words in (
         ("two_blocks.yaml", {}, "lagrangian runs on one rank only"),
-        ("rigid_ball.yaml", {"mesh/y/cells": 101}, "aspect ratio"),
+        ("rigid_ball.yaml", {"mesh/y/cells": 101}, "cells of aspect ratio up to 5.05"),
+        ("rigid_ball.yaml", {"mesh/y/cells": 78, "mesh/jitter": 0.2}, "mesh: cells of aspect ratio up to"),
     ):
         r = harmos(HERE / deck, {**more, **COMMON}, ranks=2, expect=2)
         lines = [line for line in r.text.splitlines() if line.startswith("harmos:")]
         assert len(lines) == 1 and words in lines[0], r.text
         assert not r.history
         clean(r)
+    clean(harmos(HERE / "rigid_ball.yaml", {**COMMON, "mesh/y/cells": 80, "run/max_cycles": 1}, ranks=2))  # just 4 : 1
 
 
 if __name__ == "__main__":
