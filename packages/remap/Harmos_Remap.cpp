@@ -96,28 +96,35 @@ Classes const &keepClasses(Input const &in, Kept &kept)
   return kept.classes;
 }
 
+/// Kinetic energy per mass of the pairs: of their corners, and their part of what the nodes lost in stage 1.
+void addHeat(Input const &in, StageState const &stage, SweptHeat const &heat)
+{
+  bool const swept = heat.node.extent(0) > 0;
+  Kokkos::parallel_for(
+      "Harmos::remap::addHeat", RangePolicy(0, in.pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
+        double lost = 0.0;
+        for (int k = 0; k < 4 && swept; ++k)
+          lost += in.share(in.pairs.cell(pair), k) * heat.node(in.pairs.dof_node(pair, k));
+        stage.kinetic(pair) = cornerKineticEnergy(in.share, in.pairs, stage.velocity, pair) + lost;
+      });
+}
+
 /// Stage 1: the pure regions.
 StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, SweptSums &sums)
 {
   StageState stage;
   stage.record = recycle(kept.records, "record", in.pairs.num_pairs);
   stage.velocity = in.half;
-  View<double *> before = in.state.damage;
-  if (in.carriesDamage())
-    stage.kinetic = scratch<double *>("damage", in.pairs.num_pairs);
-  else if (in.options.return_kinetic_defect)
-  {
-    before = scratch<double *>("kineticBefore", in.pairs.num_pairs);
+  bool const returns_heat = in.options.return_kinetic_defect;
+  if (in.carriesDamage() || returns_heat)
     stage.kinetic = scratch<double *>("kinetic", in.pairs.num_pairs);
-    Kokkos::parallel_for(
-        "Harmos::remap::cornerKineticEnergy", RangePolicy(0, in.pairs.num_pairs),
-        KOKKOS_LAMBDA(int pair) { before(pair) = cornerKineticEnergy(in.share, in.pairs, in.half, pair); });
-  }
   if (classes.num_swept == 0)
   {
     Kokkos::deep_copy(stage.record, in.state.record);
-    if (stage.kinetic.extent(0) > 0)
-      Kokkos::deep_copy(stage.kinetic, before);
+    if (in.carriesDamage())
+      Kokkos::deep_copy(stage.kinetic, in.state.damage);
+    else if (returns_heat)
+      addHeat(in, stage, {});
     return stage;
   }
   if (kept.window.columns.extent(0) == 0)
@@ -128,8 +135,20 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   if (in.options.order == 3 && kept.window.spread.extent(0) == 0)
     kept.window.spread = sweptSpreads(kept.chunks);
   stage.velocity = recycle(kept.velocities, "velocity", in.dof_nodes.num_dof_nodes);
-  sums = sweep(SweptStage(in, classes, kept.window, before, stage.record, stage.kinetic, stage.velocity), kept.chunks,
-               in.mesh.num_cells);
+  SweptHeat heat;
+  View<double *> damage;
+  if (returns_heat)
+  {
+    heat.corner = scratch<double *[4]>("cornerHeat", in.mesh.num_cells);
+    heat.node = scratch<double *>("nodeHeat", in.dof_nodes.num_dof_nodes);
+    Kokkos::deep_copy(heat.node, 0.0);
+  }
+  if (in.carriesDamage())
+    damage = stage.kinetic;
+  sums = sweep(SweptStage(in, classes, kept.window, in.state.damage, stage.record, damage, stage.velocity, heat),
+               kept.chunks, in.mesh.num_cells);
+  if (returns_heat)
+    addHeat(in, stage, heat);
   return stage;
 }
 

@@ -86,9 +86,14 @@ def noh(cells, **more):
     # the circle of the area in which the density is beyond the middle of the jump from 4 to 16
     shock = sqrt(4.0 / pi * area[density > 10.0].sum())
     ring = (abs(radius - 0.1) < 0.02)
+    before = (radius > 0.25) & (radius < 0.33)
+    unrest = abs(density[before] / (1.0 + t / radius[before]) - 1.0).max()
     spread = density[ring].max() - density[ring].min()
     print(f"  {cells} cells: L1 {error:.3f}, plateau {mean:.3f}, shock at {shock:.4f}, density over the ring r = 0.1 "
-          f"within {spread:.2f}, centre {density[radius.argmin()]:.2f}")
+          f"within {spread:.2f}, centre {density[radius.argmin()]:.2f}, before the shock off by up to {unrest:.3f}")
+    # Kinetic energy that is returned elsewhere than where it is lost drives waves there (0.2 along the diagonal).
+    if cells >= 100:
+        check("density before the shock", unrest, 0.06)
     check("energy ledger", r.summary["energy_error"], 1e-10)
     check("mass", r.summary["mass_error"], 1e-12)
     clean(r)
@@ -101,7 +106,7 @@ def test_noh_cylindrical_shock_is_where_it_should_be_and_density_converges():
     coarse, fine = noh(50), noh(100)
     check("one less the order of the density", 1.0 - log2(coarse[0] / fine[0]), 0.2)
     check("one less the order of the plateau of 16", 1.0 - log2((16.0 - coarse[1]) / (16.0 - fine[1])), 0.2)
-    check("plateau of 16 at 100 cells", abs(fine[1] / 16.0 - 1.0), 0.11)
+    check("plateau of 16 at 100 cells", abs(fine[1] / 16.0 - 1.0), 0.115)
 
 
 def test_noh_planar_shock_doubles_twice():
@@ -162,8 +167,9 @@ def test_sedov_blast_reaches_one_metre_in_a_second():
         check("energy ledger", r.summary["energy_error"], 1e-10)
         clean(r)
     for peak in peaks:
-        check("place of the peak, cells off", 100.0 * abs(peak - 1.0), 2.0)
-    check("L1 of 120 over 60 cells", errors[1] / errors[0], 0.85)
+        # hot thin gas that does not go with its mass runs along the mesh's axes: 1.5 and 1.7 cells
+        check("place of the peak, cells off", 100.0 * abs(peak - 1.0), 0.8)
+    check("L1 of 120 over 60 cells", errors[1] / errors[0], 0.72)
 
 
 def test_plate_impact_with_strength_gives_the_two_wave_state():

@@ -51,10 +51,12 @@ struct Neighbours
   KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * column_stride); }
 };
 
-/// Momentum along one edge a -> b: the upwind velocity at the face between them goes with the mass.
+/// Momentum along one edge a -> b: the upwind velocity v_f at the face between them goes with the mass G.
+/// \param heat_a, heat_b Where not null: the kinetic energy that comes with it, as seen from the node, is added,
+/// G (v_f - v)^2 / 2 where it arrives, less than nothing where it leaves.
 KOKKOS_FORCEINLINE_FUNCTION void transfer(LaneMask const &forward, Pack const &flow, Pack const &part, Pack const &most,
                                           Pack const &va, Pack const &vb, Pack const &beyond, Pack &gain_a,
-                                          Pack &gain_b)
+                                          Pack &gain_b, Pack *heat_a = nullptr, Pack *heat_b = nullptr)
 {
   Pack const up = select(forward, va, vb);
   Pack const down = select(forward, vb, va);
@@ -63,10 +65,18 @@ KOKKOS_FORCEINLINE_FUNCTION void transfer(LaneMask const &forward, Pack const &f
   Pack const to_up = flow * (up - face);
   gain_a += select(forward, to_up, to_down);
   gain_b += select(forward, to_down, to_up);
+  if (heat_a == nullptr)
+    return;
+  Pack const arrives = 0.5 * to_down * (face - down);
+  Pack const leaves = 0.5 * to_up * (face - up);
+  *heat_a += select(forward, leaves, arrives);
+  *heat_b += select(forward, arrives, leaves);
 }
 
+/// \param heat Of the corners (transfer), or null.
 KOKKOS_FORCEINLINE_FUNCTION void advect(Pack const &G, Pack const &per_mass, EdgePair const &edges,
-                                        Neighbours const &beyond, PackedCorners const &v, PackedCorners &gain)
+                                        Neighbours const &beyond, PackedCorners const &v, PackedCorners &gain,
+                                        Pack *heat = nullptr)
 {
   auto const forward = G > Pack(0.0);
   Pack const flow = Math::fabs(G);
@@ -77,8 +87,10 @@ KOKKOS_FORCEINLINE_FUNCTION void advect(Pack const &G, Pack const &per_mass, Edg
     int const i = a == edges.behind ? 0 : 1, j = b == edges.ahead ? 0 : 1;
     Pack const beyond_x = select(forward, beyond.velocity_x[edges.behind][i], beyond.velocity_x[edges.ahead][j]);
     Pack const beyond_y = select(forward, beyond.velocity_y[edges.behind][i], beyond.velocity_y[edges.ahead][j]);
-    transfer(forward, flow, part, 2.0, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
-    transfer(forward, flow, part, 2.0, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
+    Pack *const heat_a = heat == nullptr ? nullptr : heat + a;
+    Pack *const heat_b = heat == nullptr ? nullptr : heat + b;
+    transfer(forward, flow, part, 2.0, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b], heat_a, heat_b);
+    transfer(forward, flow, part, 2.0, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b], heat_a, heat_b);
   }
 }
 
@@ -103,9 +115,10 @@ KOKKOS_FORCEINLINE_FUNCTION Pack balancePoint(Pack const &a, Pack const &b)
 
 /// Along the edges about an axis. What leaves through a face leaves its corners by faceShare; a corner loses its
 /// share of what the cell loses. The rest of that balance flows along the edges (cornerFlows).
+/// \param heat Of the corners (transfer).
 HARMOS_RARE_FUNCTION inline void advectShares(Pack const radius[4], Pack const share[4], Pack const out[4],
                                               Pack const &per_mass, Neighbours const &beyond, PackedCorners const &v,
-                                              PackedCorners &gain)
+                                              PackedCorners &gain, Pack heat[4])
 {
   Pack const loss = (out[0] + out[1]) + (out[2] + out[3]);
   Pack need[4], flow[4];
@@ -131,8 +144,8 @@ HARMOS_RARE_FUNCTION inline void advectShares(Pack const radius[4], Pack const s
         1.0 / Math::max(part, Pack(0.5)); // beyond half-way: so that the velocity stays between the nodes'
     Pack const beyond_x = select(forward, beyond.velocity_x[behind][1], beyond.velocity_x[b][0]);
     Pack const beyond_y = select(forward, beyond.velocity_y[behind][1], beyond.velocity_y[b][0]);
-    transfer(forward, amount, part, most, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b]);
-    transfer(forward, amount, part, most, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b]);
+    transfer(forward, amount, part, most, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b], heat + a, heat + b);
+    transfer(forward, amount, part, most, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b], heat + a, heat + b);
   }
 }
 

@@ -35,6 +35,15 @@ KOKKOS_FORCEINLINE_FUNCTION void widenByMirrored(T const &q, T const &opposite, 
   upper = Math::max(upper, Math::min(mirrored, largest));
 }
 
+/// Widen a range of specific volumes by what the density may be, between lower_density and upper_density, with its
+/// ratio theta to the volume that it fills, where that is between least and largest.
+KOKKOS_FORCEINLINE_FUNCTION void widenByDensity(double ratio, double lower_density, double upper_density, double least,
+                                                double largest, double &lower, double &upper)
+{
+  lower = Math::min(lower, Math::max(ratio / upper_density, least));
+  upper = Math::max(upper, Math::min(ratio / lower_density, largest));
+}
+
 } // namespace RemapDetail
 } // namespace Harmos
 

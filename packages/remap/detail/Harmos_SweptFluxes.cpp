@@ -16,6 +16,7 @@ namespace
 struct Outflow
 {
   int count;
+  int number[4];
   double *face[4]; // its columns
   Pack volume[4];
   Pack x[4], y[4]; // swept centroids from the cell's; zero where nothing leaves
@@ -186,6 +187,7 @@ struct SweptFluxFunctor
       if ((block & LeaveBit << k) == 0)
         continue;
       int const i = out.count++;
+      out.number[i] = k;
       out.face[i] = stage.at(FaceColumn + num_face_columns * k, first);
       out.volume[i] = loadPack(out.face[i]);
       out.x[i] = loadPack(stage.at(OffsetColumn + 2 * k, first));
@@ -208,6 +210,17 @@ struct SweptFluxFunctor
         if (stage.endsAt(first + lane, k))
           widenByMirrored(laneOf(q, lane), laneOf(p[(k + 2) & 3], lane), stage.leastOf(first + lane)[field],
                           stage.largestOf(first + lane)[field], lower[lane], upper[lane]);
+  }
+
+  HARMOS_RARE_FUNCTION void widenSpecificVolume(int first, Pack const &ratio, Field const &density,
+                                                double (&lower)[pack_width], double (&upper)[pack_width]) const
+  {
+    for (int lane = 0; lane < pack_width && first + lane < end; ++lane)
+      for (int k = 0; k < 4; ++k)
+        if (stage.endsAt(first + lane, k))
+          widenByDensity(laneOf(ratio, lane), laneOf(density.lower, lane), laneOf(density.upper, lane),
+                         stage.leastOf(first + lane)[SpecificVolume], stage.largestOf(first + lane)[SpecificVolume],
+                         lower[lane], upper[lane]);
   }
 
   /// A field of the cells and, in p, beyond their faces.
@@ -243,6 +256,88 @@ struct SweptFluxFunctor
       storePack(out.face[i] + (1 + field) * column_stride, weight[i] * (q + part * deviation[i]));
   }
 
+  /// From the swept centroids to those of the mass in what is swept, as seen from the cell's: with density rho + g . x a
+  /// region of central second moments S (over its volume) has its mass S g / rho off. S = (a a^T + b b^T) / 12 with the
+  /// mid-lines a, b of the cell, (d - 2 x) in place of the one across a face, whose outward mid-line is d, for what
+  /// passes through it (exact on parallelograms). \param part Of the gradient of f, the density.
+  KOKKOS_FORCEINLINE_FUNCTION static void moveToMassCentroids(Beyond const &offset, Field const &f, Pack const &part,
+                                                              Pack const (&mass)[4], Outflow &out)
+  {
+    Pack const gx = (part / 12.0) * f.gradient_x, gy = (part / 12.0) * f.gradient_y;
+    Pack line_x[2], line_y[2], along[2]; // from face 0 to 2, from 3 to 1
+    for (int i = 0; i < 2; ++i)
+    {
+      int const from = 3 * i, to = 2 - i;
+      Pack const square_from = offset.x[from] * offset.x[from] + offset.y[from] * offset.y[from];
+      Pack const square_to = offset.x[to] * offset.x[to] + offset.y[to] * offset.y[to];
+      auto const both = square_from * square_to > Pack(0.0);
+      Pack const x = offset.x[to] - offset.x[from], y = offset.y[to] - offset.y[from];
+      line_x[i] = select(both, Pack(0.5 * x), x);
+      line_y[i] = select(both, Pack(0.5 * y), y);
+      along[i] = line_x[i] * gx + line_y[i] * gy;
+    }
+    Pack const per_density = 1.0 / f.q;
+    Pack const cell_x = per_density * (along[0] * line_x[0] + along[1] * line_x[1]);
+    Pack const cell_y = per_density * (along[0] * line_y[0] + along[1] * line_y[1]);
+    for (int i = 0; i < out.count; ++i)
+    {
+      int const across = out.number[i] & 1;
+      double const sign = out.number[i] == 1 || out.number[i] == 2 ? 1.0 : -1.0;
+      Pack const x = sign * line_x[across] - 2.0 * out.x[i], y = sign * line_y[across] - 2.0 * out.y[i];
+      Pack const through = x * gx + y * gy;
+      auto const some = mass[i] > Pack(0.0);
+      Pack const per_swept = select(some, Pack(out.volume[i] / select(some, mass[i], Pack(1.0))), Pack(0.0));
+      out.x[i] = select(some, out.x[i] + per_swept * (through * x + along[1 - across] * line_x[1 - across]) - cell_x,
+                        Pack(0.0));
+      out.y[i] = select(some, out.y[i] + per_swept * (through * y + along[1 - across] * line_y[1 - across]) - cell_y,
+                        Pack(0.0));
+    }
+  }
+
+  /// The fluxes of thermodynamic volume, mass times specific volume s. What is linear is its ratio theta = rho s to the
+  /// volume that it fills: where theta is one in the cell and around, what a face takes is the volume that it sweeps,
+  /// and pure cells keep s = volume / mass however steep the density is. Bounds are those of s.
+  /// \param density Of the cells, and beyond the faces.
+  KOKKOS_FORCEINLINE_FUNCTION void remapSpecificVolume(int first, Directions const &directions, Beyond const &offset,
+                                                       Columns const &columns, Outflow const &out,
+                                                       Field const &density, Pack const (&density_beyond)[4],
+                                                       Pack const (&mass)[4], Pack const &per_mass) const
+  {
+    Pack p[4], theta[4], deviation[4];
+    Beyond inside = offset;
+    inside.at_boundary = false;
+    Field f = fieldOf(first, SpecificVolume, directions, inside, columns, p);
+    for (int k = 0; k < 4; ++k)
+      theta[k] = density_beyond[k] * p[k];
+    Field const t = differentiate(directions, density.q * f.q, theta);
+    if (offset.at_boundary)
+    {
+      double lower[pack_width], upper[pack_width];
+      storePack(lower, f.lower);
+      storePack(upper, f.upper);
+      Field const copy = density; // as in fieldOf
+      widenSpecificVolume(first, t.q, copy, lower, upper);
+      f.lower = loadPack(lower);
+      f.upper = loadPack(upper);
+    }
+    Pack part = 1.0;
+    if constexpr (limiter == RemapLimiter::VanLeer)
+      part = vanLeerPart(t, offset, theta);
+    for (int i = 0; i < out.count; ++i)
+    {
+      Pack ratio = t.q + part * (out.x[i] * t.gradient_x + out.y[i] * t.gradient_y);
+      if constexpr (limiter == RemapLimiter::Range || limiter == RemapLimiter::RangeInside)
+        ratio = Math::max(t.lower, Math::min(ratio, t.upper));
+      auto const some = mass[i] > Pack(0.0);
+      deviation[i] = select(some, out.volume[i] * ratio / select(some, mass[i], Pack(1.0)) - f.q, Pack(0.0));
+    }
+    Pack left = 1.0;
+    if constexpr (limiter == RemapLimiter::Range || limiter == RemapLimiter::RangeInside)
+      left = rangePart(f, out.count, mass, per_mass, deviation);
+    for (int i = 0; i < out.count; ++i)
+      storePack(out.face[i] + (1 + SpecificVolume) * column_stride, mass[i] * (f.q + left * deviation[i]));
+  }
+
   KOKKOS_FORCEINLINE_FUNCTION static Beyond offsets(int block, Columns const &columns)
   {
     Beyond offset;
@@ -264,7 +359,7 @@ struct SweptFluxFunctor
       return;
     GatheredColumns gathered;
     Columns const columns = columnsBeyond(first, block, gathered);
-    Outflow const out = outflow(first, block);
+    Outflow out = outflow(first, block);
     Beyond const offset = offsets(block, columns);
     Directions const directions = invert(offset.x, offset.y);
 
@@ -288,7 +383,11 @@ struct SweptFluxFunctor
     for (int field = DeviatorXX; field < num_pair_fields; ++field)
       remapField(first, field, directions, offset, columns, out, out.volume, per_volume);
     Pack const per_mass = 1.0 / staying_mass;
-    for (int field = stage.carries() ? KineticField : KineticField + 1; field < DeviatorXX; ++field)
+    remapSpecificVolume(first, directions, offset, columns, out, f, density, mass, per_mass);
+    moveToMassCentroids(offset, f, part, mass, out);
+    if (stage.carries())
+      remapField(first, KineticField, directions, offset, columns, out, mass, per_mass);
+    for (int field = SpecificVolume + 1; field < DeviatorXX; ++field)
       remapField(first, field, directions, offset, columns, out, mass, per_mass);
   }
 };

@@ -259,7 +259,7 @@ struct SweptGatherFunctor
   {
     FieldPack(stage.record.row(pair)).store(stage.record1.row(pair));
     if (stage.carries())
-      stage.kinetic1[pair] = stage.kinetic[pair];
+      stage.damage1[pair] = stage.damage[pair];
   }
 
   /// Of the materials of the lanes, one after the other.
@@ -309,10 +309,28 @@ struct SweptGatherFunctor
     if (stage.carries())
       for (int lane = 0; lane < pack_width; ++lane)
         if ((flowing >> lane & 1u) != 0u)
-          stage.kinetic1[block.pair[lane]] = laneOf(q[KineticField], lane);
+          stage.damage1[block.pair[lane]] = laneOf(q[KineticField], lane);
     q[Mass] = mass1;
     q[VolumeFraction] = 1.0;
     storeIndexedRows(q, flowing, stage.record1, block.pair, (block.bits & WholeBit) != 0);
+  }
+
+  /// What the corners of the pure cells add to the heat of their nodes (SweptHeat).
+  HARMOS_RARE_FUNCTION void storeHeat(Block const &block, Pack const heat[4]) const
+  {
+    for (int lane = 0; lane < pack_width; ++lane)
+      for (int k = 0; k < 4; ++k)
+        if ((block.pure >> lane & 1u) != 0u)
+          stage.corner_heat(block.cell[lane], k) = laneOf(heat[k], lane);
+  }
+
+  HARMOS_RARE_FUNCTION void advectWithHeat(Block const &block, Pack const out[4], Pack const &per_mass,
+                                           Neighbours const &beyond, PackedCorners const &v, PackedCorners &gain) const
+  {
+    Pack heat[4] = {0.0, 0.0, 0.0, 0.0};
+    advect(0.25 * (out[1] - out[3]), per_mass, {{0, 1, 3, 2}, 3, 1}, beyond, v, gain, heat);
+    advect(0.25 * (out[2] - out[0]), per_mass, {{0, 3, 1, 2}, 0, 2}, beyond, v, gain, heat);
+    storeHeat(block, heat);
   }
 
   /// The momentum that the corners gain. \return The kinetic energy before, of the pure owned cells.
@@ -345,10 +363,22 @@ struct SweptGatherFunctor
       PackedCorners gained = gain;
       Pack const part[4] = {share[0], share[1], share[2], share[3]};
       Pack const out[4] = {e.outflow[0], e.outflow[1], e.outflow[2], e.outflow[3]};
-      Pack radius[4];
+      Pack radius[4], heat[4] = {0.0, 0.0, 0.0, 0.0};
       for (int k = 0; k < 4; ++k)
         radius[k] = packOf([&](int lane) { return stage.position(stage.cell_node(block.cell[lane], k), 0); });
-      advectShares(radius, part, out, per_mass, around, velocity, gained);
+      advectShares(radius, part, out, per_mass, around, velocity, gained, heat);
+      gain = gained;
+      if (stage.returnsHeat())
+        storeHeat(block, heat);
+    }
+    else if (stage.returnsHeat())
+    {
+      Block const copy = block; // copies, as in findNeighbours
+      Neighbours const around = beyond;
+      PackedCorners const velocity = v;
+      PackedCorners gained = gain;
+      Pack const out[4] = {e.outflow[0], e.outflow[1], e.outflow[2], e.outflow[3]};
+      advectWithHeat(copy, out, per_mass, around, velocity, gained);
       gain = gained;
     }
     else

@@ -325,7 +325,7 @@ struct SweptGeometryFunctor
     storePack(stage.at(OldMass, first), field[Mass]);
     field[DensityField] = field[Mass] * per_volume;
     if (stage.carries())
-      field[KineticField] = packOf([&](int lane) { return stage.kinetic[pair[lane]]; });
+      field[KineticField] = packOf([&](int lane) { return stage.damage[pair[lane]]; });
     for (int f = 0; f < num_pair_fields; ++f)
       storePack(stage.at(FieldColumn + f, first), field[f]);
   }

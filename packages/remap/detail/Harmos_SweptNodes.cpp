@@ -24,6 +24,22 @@ struct SweptNodesFunctor
     Vector2 gain;
   };
 
+  /// Kinetic energy that a dof node loses (SweptHeat). \param mass, v After. \param gain Momentum gained.
+  HARMOS_RARE_FUNCTION void storeHeat(int node, int dof, double mass, Vector2 const &gain, Vector2 const &v) const
+  {
+    double heat = 0.0;
+    for (int j = stage.first_item[node]; j < stage.first_item[node + 1]; ++j)
+    {
+      int const cell = stage.item[j] >> 2, corner = stage.item[j] & 3;
+      if (stage.pure_material[cell] >= 0 && stage.dof_node(stage.first_pair[cell], corner) == dof)
+        heat += stage.corner_heat(cell, corner);
+    }
+    Vector2 const half{stage.half(dof, 0), stage.half(dof, 1)};
+    Vector2 const change = v - half;
+    double const lost = heat + dot(half, gain - mass * change) - 0.5 * mass * dot(change, change);
+    stage.node_heat[dof] = mass > 0.0 ? lost / mass : 0.0;
+  }
+
   /// All cells around are pure and of one material.
   KOKKOS_FORCEINLINE_FUNCTION Gathered gatherPure(int first, int end) const
   {
@@ -90,6 +106,8 @@ struct SweptNodesFunctor
       }
       if (final && owned)
         kinetic += 0.125 * g.four_mass * dot(v, v);
+      if (stage.returnsHeat())
+        storeHeat(node, dof, 0.25 * g.four_mass, g.gain, v);
       stage.velocity1(dof, 0) = v[0];
       stage.velocity1(dof, 1) = v[1];
     }
@@ -217,6 +235,9 @@ struct SweptNodesFunctor
       if ((plain.lanes >> lane & 1u) != 0u)
       {
         kinetic += laneOf(energy, lane);
+        if (stage.returnsHeat())
+          storeHeat(first + lane, dof[lane], 0.25 * laneOf(plain.four_mass, lane),
+                    {laneOf(plain.gain_x, lane), laneOf(plain.gain_y, lane)}, {laneOf(x, lane), laneOf(y, lane)});
         if (plain.lanes == all_lanes)
           continue;
         stage.velocity1(dof[lane], 0) = laneOf(x, lane);

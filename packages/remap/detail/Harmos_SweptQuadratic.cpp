@@ -123,7 +123,8 @@ struct SweptQuadraticFunctor
   {
     int cell;
     Spread spread;
-    FieldPack q, lower, upper;
+    FieldPack q, lower, upper; // SpecificVolume: its ratio to the volume that it fills, until boundSpecificVolume
+    double least, largest;     // specific volume around
     FieldPack coefficient[5];
     double volume, density;
     double swept_volume[4], swept_mass[4];
@@ -137,11 +138,15 @@ struct SweptQuadraticFunctor
     return {{*stage.at(CentroidX, cell), *stage.at(CentroidY, cell)}, {second[0], second[1], second[2]}};
   }
 
+  KOKKOS_INLINE_FUNCTION double fieldOf(int cell, int field) const { return *stage.at(FieldColumn + field, cell); }
+
+  /// The fields of a cell, with rho s in place of the specific volume s (SweptFluxFunctor::remapSpecificVolume).
   KOKKOS_INLINE_FUNCTION FieldPack valueOf(int cell) const
   {
     double q[FieldPack::fields];
     for (int f = 0; f < FieldPack::fields; ++f)
-      q[f] = *stage.at(FieldColumn + f, cell);
+      q[f] = fieldOf(cell, f);
+    q[SpecificVolume] *= q[DensityField];
     return FieldPack(q);
   }
 
@@ -149,6 +154,7 @@ struct SweptQuadraticFunctor
   {
     QuadraticFit<FieldPack> fit(d.spread, d.volume);
     d.lower = d.upper = d.q;
+    d.least = d.largest = fieldOf(d.cell, SpecificVolume);
     for (int j = stage.first_neighbour[d.cell]; j < stage.first_neighbour[d.cell + 1]; ++j)
     {
       int const neighbour = stage.neighbour[j];
@@ -157,12 +163,22 @@ struct SweptQuadraticFunctor
       FieldPack const value = valueOf(neighbour);
       d.lower = lesser(d.lower, value);
       d.upper = greater(d.upper, value);
+      d.least = Math::min(d.least, fieldOf(neighbour, SpecificVolume));
+      d.largest = Math::max(d.largest, fieldOf(neighbour, SpecificVolume));
       fit.add(spreadOf(neighbour), 1.0, value - d.q);
     }
+    double const least_ratio = d.lower[SpecificVolume], largest_ratio = d.upper[SpecificVolume];
     for (int k = 0; k < 4; ++k)
       if (stage.endsAt(d.cell, k) && stage.sameBeyond(d.cell, (k + 2) & 3))
-        PolynomialFinder::widenFields(d.q, valueOf(stage.face_neighbour(d.cell, (k + 2) & 3) >> 2),
-                                      stage.leastOf(d.cell), stage.largestOf(d.cell), d.lower, d.upper);
+      {
+        int const opposite = stage.face_neighbour(d.cell, (k + 2) & 3) >> 2;
+        double const *least = stage.leastOf(d.cell), *largest = stage.largestOf(d.cell);
+        PolynomialFinder::widenFields(d.q, valueOf(opposite), least, largest, d.lower, d.upper);
+        widenByDensity(d.q[SpecificVolume], d.lower[DensityField], d.upper[DensityField], least[SpecificVolume],
+                       largest[SpecificVolume], d.least, d.largest);
+      }
+    d.lower.set<SpecificVolume>(least_ratio);
+    d.upper.set<SpecificVolume>(largest_ratio);
     bool const fitted = fit.solve();
     for (int i = 0; i < 5; ++i)
       d.coefficient[i] = fitted ? fit.right[i] : FieldPack(0.0);
@@ -223,6 +239,26 @@ struct SweptQuadraticFunctor
     return part;
   }
 
+  /// The specific volume in place of its ratio: deviations of what is swept, value and range.
+  /// \param ratio Deviations of the ratio by volume.
+  KOKKOS_INLINE_FUNCTION void boundSpecificVolume(Donor &d, double const ratio[4]) const
+  {
+    bool const by_range = stage.limiter == RemapLimiter::Range || stage.limiter == RemapLimiter::RangeInside;
+    double const own = fieldOf(d.cell, SpecificVolume), mean = d.q[SpecificVolume];
+    double const part = stage.limiter == RemapLimiter::VanLeer ? vanLeer(d)[SpecificVolume] : 1.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      double swept = mean + part * ratio[k];
+      if (by_range)
+        swept = Math::max(d.lower[SpecificVolume], Math::min(swept, d.upper[SpecificVolume]));
+      d.deviation[k].set<SpecificVolume>(
+          d.swept_mass[k] > 0.0 ? d.swept_volume[k] * swept / d.swept_mass[k] - own : 0.0);
+    }
+    d.q.set<SpecificVolume>(own);
+    d.lower.set<SpecificVolume>(d.least);
+    d.upper.set<SpecificVolume>(d.largest);
+  }
+
   KOKKOS_INLINE_FUNCTION FieldPack vanLeer(Donor const &d) const
   {
     PolynomialFinder::FaceNeighbours beyond;
@@ -275,14 +311,18 @@ struct SweptQuadraticFunctor
     // Density first: it gives the mass fluxes that weigh the primitives.
     deviate(d, {0.0, 0.0}, false);
     double const part = kept(d, staying_volume, 0.0)[DensityField];
-    double staying_mass = d.volume * d.density;
+    double staying_mass = d.volume * d.density, ratio[4];
     for (int k = 0; k < 4; ++k)
     {
+      ratio[k] = d.deviation[k][SpecificVolume];
       d.swept_mass[k] = d.swept_volume[k] * (d.density + part * d.deviation[k][DensityField]);
       staying_mass -= d.swept_mass[k];
     }
     deviate(d, part * Vector2{d.coefficient[0][DensityField], d.coefficient[1][DensityField]}, true);
-    FieldPack const all = kept(d, staying_volume, staying_mass);
+    boundSpecificVolume(d, ratio);
+    FieldPack all = kept(d, staying_volume, staying_mass);
+    if (stage.limiter == RemapLimiter::VanLeer) // its deviations hold it already
+      all.set<SpecificVolume>(1.0);
     for (int k = 0; k < 4; ++k)
     {
       if (!(d.swept_volume[k] > 0.0))

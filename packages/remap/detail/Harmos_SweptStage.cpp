@@ -91,8 +91,9 @@ View<double *[4]> sweptSpreads(SweptChunks const &chunks)
 { return scratch<double *[4]>("sweptSpread", 4 * chunks.chunk); }
 
 SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow const &window,
-                       View<double *> const &kinetic_before, View<double *[num_pair_fields]> const &record_after,
-                       View<double *> const &kinetic_after, View<double *[2]> const &velocity_after)
+                       View<double *> const &damage_before, View<double *[num_pair_fields]> const &record_after,
+                       View<double *> const &damage_after, View<double *[2]> const &velocity_after,
+                       SweptHeat const &heat)
     : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), third_order(in.options.order > 2),
       limiter(in.options.limiter), ranges(in.ranges.data()), all_owned(in.mesh.num_owned_cells == in.mesh.num_cells),
       cell_node(in.mesh.cell_node), face_neighbour(in.mesh.face_neighbour), position(in.start),
@@ -103,11 +104,11 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
       condition(in.conditions.condition.data()), first_pair(in.pairs.offset.data()),
       pair_material(in.pairs.material.data()), first_dof(in.dof_nodes.offset.data()), dof_node(in.pairs.dof_node),
       materials(in.materials.data()), record(in.state.record), share(in.share.part), half(in.half),
-      kinetic(kinetic_before.data()), flags(classes.flags.data()), pure_material(classes.pure_material.data()),
+      damage(damage_before.data()), flags(classes.flags.data()), pure_material(classes.pure_material.data()),
       node_return(classes.node_return.data()), node_final(classes.node_final.data()),
       node_sweep(classes.node_sweep.data()), mask(window.mask), columns(window.columns.data()),
       block(window.block.data()), spread(window.spread), record1(record_after), velocity1(velocity_after),
-      kinetic1(kinetic_after.data())
+      damage1(damage_after.data()), corner_heat(heat.corner), node_heat(heat.node.data())
 {
 }
 

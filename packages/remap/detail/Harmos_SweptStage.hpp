@@ -26,7 +26,7 @@ namespace RemapDetail
 enum StageField : int
 {
   DensityField = 0, // fluxes: mass
-  KineticField = 1  // where it is carried: kinetic energy per mass; damage where that is tracked (also by mass)
+  KineticField = 1  // damage where that is tracked; else, in stage 2, where asked for: kinetic energy (also by mass)
 };
 
 /// Columns of SweptWindow.
@@ -104,12 +104,27 @@ HARMOS_RARE_FUNCTION inline void joinColumns(double const *begin, double const *
   }
 }
 
+/// Kinetic energy that stage 1 loses, where it is asked for; else empty.
+///
+/// A node of mass m and velocity v gains the masses G_i with velocities v_i (upwind, at the faces between nodes; G_i < 0:
+/// it gives them away), sum G_i = m' - m, and then has m' v' = m v + sum G_i v_i. With the kinetic energy G_i v_i^2 / 2
+/// of each going from node to node, what is missing at the node is
+///   m v^2 / 2 + sum G_i v_i^2 / 2 - m' v'^2 / 2 = sum G_i (v_i - v)^2 / 2 - m' (v' - v)^2 / 2:
+/// all nodes together lose just what the kinetic energy falls by, and each what is the same in all frames of reference.
+/// (A kinetic energy of the cells, remapped as a field of its own, differs by errors of first order in the velocity's:
+/// it lags behind the momentum by another phase. In cold gas they grow to waves.)
+struct SweptHeat
+{
+  View<double *[4]> corner; // cells: sum of G_i (v_i - v)^2 / 2 over the edges within the cell, by corner [J/m]
+  View<double *> node;      // dof nodes: what is missing over m' [J/kg]
+};
+
 /// Input and output of stage 1, as the kernels see it: many short launches, which Views would have to be copied for.
 struct SweptStage
 {
-  SweptStage(Input const &in, Classes const &classes, SweptWindow const &window, View<double *> const &kinetic_before,
-             View<double *[num_pair_fields]> const &record_after, View<double *> const &kinetic_after,
-             View<double *[2]> const &velocity_after);
+  SweptStage(Input const &in, Classes const &classes, SweptWindow const &window, View<double *> const &damage_before,
+             View<double *[num_pair_fields]> const &record_after, View<double *> const &damage_after,
+             View<double *[2]> const &velocity_after, SweptHeat const &heat);
 
   Geometry geometry;
   double dt;
@@ -135,7 +150,7 @@ struct SweptStage
   RowPointer<double, num_pair_fields> record; // before
   RowPointer<double, 4> share;                // axisymmetric: Input::share
   RowPointer<double, 2> half;
-  double const *kinetic; // kinetic energy per mass of the pairs; null: not carried
+  double const *damage; // of the pairs; null: not tracked
 
   int const *flags, *pure_material, *node_return, *node_final, *node_sweep; // of Classes
 
@@ -146,9 +161,12 @@ struct SweptStage
 
   RowPointer<double, num_pair_fields> record1; // after; a copy where nothing flows
   RowPointer<double, 2> velocity1;
-  double *kinetic1;
+  double *damage1;
+  RowPointer<double, 4> corner_heat; // of SweptHeat
+  double *node_heat;                 // null: not asked for
 
-  KOKKOS_FORCEINLINE_FUNCTION bool carries() const { return kinetic != nullptr; }
+  KOKKOS_FORCEINLINE_FUNCTION bool carries() const { return damage != nullptr; }
+  KOKKOS_FORCEINLINE_FUNCTION bool returnsHeat() const { return node_heat != nullptr; }
   KOKKOS_FORCEINLINE_FUNCTION double *at(int column, int cell) const
   {
     unsigned const row = static_cast<unsigned>(cell & mask);
