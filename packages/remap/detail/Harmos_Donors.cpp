@@ -87,7 +87,30 @@ KOKKOS_INLINE_FUNCTION bool isFolded(Region const &region)
   return false;
 }
 
-/// A needle thinner than the bilinear map bends would fold: it moves as a whole, by the displacement of its centroid.
+/// A shift without what would carry a region of this cell through a wall, of which its vertices keep their side: no
+/// corner of the cell leaves a wall's line, but the centroid's displacement is not that of a vertex there.
+KOKKOS_INLINE_FUNCTION Vector2 withinWalls(Input const &in, int cell, Quadrilateral const &q, Region const &region,
+                                           Vector2 const &centroid, Vector2 shift)
+{
+  for (int k = 0; k < 4; ++k)
+  {
+    int const index = in.conditions.node_index(in.mesh.cell_node(cell, k));
+    int const walls = index < 0 ? 0 : in.conditions.condition(index).count;
+    for (int w = 0; w < walls; ++w)
+    {
+      Vector2 const normal = in.conditions.condition(index).normal[w];
+      Vector2 const inward = (dot(normal, centroid - q[k]) < 0.0 ? -1.0 : 1.0) * normal;
+      double room = dot(inward, centroid - q[k]);
+      for (int i = 0; i < region.size; ++i)
+        room = Math::min(room, dot(inward, region[i] - q[k]));
+      shift += Math::max(-dot(inward, shift) - Math::max(room, 0.0), 0.0) * inward;
+    }
+  }
+  return shift;
+}
+
+/// A needle thinner than the bilinear map bends would fold: it moves as a whole, by the displacement of its centroid,
+/// but through no wall.
 KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, MovedCorners const &c, Region &region)
 {
   int const first = in.regions.cell_region(cell);
@@ -101,7 +124,8 @@ KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, Mov
   Vector2 const centroid = region[0] + moments<1>(region, region[0]).centroid();
   double N[4];
   shapeFunctionsAt(c.q, centroid, N);
-  Vector2 const shift = (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]);
+  Vector2 const shift =
+      withinWalls(in, cell, c.q, region, centroid, (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]));
   for (int i = 0; i < region.size; ++i)
     region[i] += shift;
 }

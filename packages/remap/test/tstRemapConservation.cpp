@@ -142,50 +142,89 @@ TEST(Conservation, massesThatDoNotMove_keepTheirBits)
   EXPECT_EQ(scene.report.overlap_volume + scene.report.void_volume + scene.report.closed_volume, 0.0);
 }
 
+namespace
+{
+
+constexpr double needle_cell = 1.0 / 3.0;
+
 //            C     A needle along a cell's diagonal, bent by the bilinear map by forty times its thickness: edge AQ
 //      P  .  '     then crosses edge CP, and what lies beyond the crossing would count as a negative volume.
 //    . ' Q
 //  A
+Scene needle(double thickness, Vector2 const &corner, BoundaryKind kind)
+{
+  Scene scene(3, 3, 0.0, twoLaws(), kind);
+  Vector2 const across = perpendicular(normalised(Vector2{1.0, 1.0}));
+  auto const point = [&](double s, double offset) {
+    return corner + needle_cell * (s * Vector2{1.0, 1.0} + offset * across);
+  };
+  Vector2 const vertex[4] = {point(0.1, 0.0), point(0.7, -thickness), point(0.9, 0.0), point(0.3, thickness)};
+  std::vector<Layer> layers;
+  for (int k = 0; k < 4; ++k) // all on the outer side of an edge is void
+  {
+    Vector2 const inward = normalised(perpendicular(vertex[(k + 1) % 4] - vertex[k]));
+    layers.push_back({-1, [=](Vector2 const &) { return Plane2{inward, dot(inward, vertex[k])}; }});
+  }
+  layers.push_back(rest(0));
+  scene.paint(
+      layers, [](int, Vector2 const &) { return 1.0; }, [](int, Vector2 const &) { return 2.0; });
+  return scene;
+}
+
+/// After the move of a needle: its centroid.
+Vector2 expectKept(Scene &scene, int pairs, double thickness)
+{
+  Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
+  RemapResult const result = scene.remapped();
+  Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
+  EXPECT_EQ(scene.report.failures, 0) << "thickness " << thickness;
+  EXPECT_EQ(result.pairs.num_pairs, pairs);
+  EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-14);
+  EXPECT_NEAR(after.volume, before.volume, 1e-16);
+  EXPECT_NEAR(after.internal / before.internal, 1.0, 1e-14);
+  EXPECT_LT(norm(after.momentum - before.momentum), 1e-14 * norm(before.momentum));
+  Vector2 moment{0.0, 0.0};
+  for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+    moment += result.state.record(pair, Mass) * Vector2{result.state.centroid(pair, 0), result.state.centroid(pair, 1)};
+  return (1.0 / after.mass) * moment;
+}
+
+} // namespace
+
 TEST(Conservation, needleThatItsMotionWouldFold_movesAsAWhole)
 {
   for (double const thickness : {1e-3, 1e-6, 1e-9})
   {
-    double const h = 1.0 / 3.0;
-    Scene scene(3, 3, 0.0, twoLaws(), BoundaryKind::Outflow);
-    Vector2 const along = normalised(Vector2{1.0, 1.0}), across = perpendicular(along), corner{h, h};
-    auto const point = [&](double s, double offset) { return corner + h * (s * Vector2{1.0, 1.0} + offset * across); };
-    Vector2 const vertex[4] = {point(0.1, 0.0), point(0.7, -thickness), point(0.9, 0.0), point(0.3, thickness)};
-    std::vector<Layer> layers;
-    for (int k = 0; k < 4; ++k) // all on the outer side of an edge is void
-    {
-      Vector2 const inward = normalised(perpendicular(vertex[(k + 1) % 4] - vertex[k]));
-      layers.push_back({-1, [=](Vector2 const &) { return Plane2{inward, dot(inward, vertex[k])}; }});
-    }
-    layers.push_back(rest(0));
-    scene.paint(
-        layers, [](int, Vector2 const &) { return 1.0; }, [](int, Vector2 const &) { return 2.0; });
+    double const h = needle_cell;
+    Scene scene = needle(thickness, {h, h}, BoundaryKind::Outflow);
     ASSERT_EQ(scene.pairs.num_pairs, 1);
-    Vector2 const shift{0.5 * h, 0.0};
+    Vector2 const shift{0.5 * h, 0.0}, across = perpendicular(normalised(Vector2{1.0, 1.0}));
     scene.move(
         [&](int, Vector2 const &x)
         {
           bool const on_diagonal = (x[0] < 0.5) == (x[1] < 0.5);
           return shift + (on_diagonal ? -0.01 : 0.01) * h * across;
         });
-    Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
-    RemapResult const result = scene.remapped();
-    Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
-    EXPECT_EQ(scene.report.failures, 0) << "thickness " << thickness;
-    EXPECT_EQ(result.pairs.num_pairs, 2);
-    EXPECT_NEAR(after.mass / before.mass, 1.0, 1e-14);
-    EXPECT_NEAR(after.volume, before.volume, 1e-16);
-    EXPECT_NEAR(after.internal / before.internal, 1.0, 1e-14);
-    EXPECT_LT(norm(after.momentum - before.momentum), 1e-14 * norm(before.momentum));
-    Vector2 moment{0.0, 0.0};
-    for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
-      moment +=
-          result.state.record(pair, Mass) * Vector2{result.state.centroid(pair, 0), result.state.centroid(pair, 1)};
     Vector2 const still{scene.state.centroid(0, 0), scene.state.centroid(0, 1)};
-    EXPECT_LT(norm((1.0 / after.mass) * moment - (still + shift)), 0.011 * h);
+    EXPECT_LT(norm(expectKept(scene, 2, thickness) - (still + shift)), 0.011 * h);
+  }
+}
+
+TEST(Conservation, needleBesideAWallThatItsMotionWouldFold_doesNotCrossTheWall)
+{
+  for (double const thickness : {1e-3, 1e-6, 1e-9})
+  {
+    double const h = needle_cell;
+    Scene scene = needle(thickness, {0.0, h}, BoundaryKind::SlipWall);
+    ASSERT_EQ(scene.pairs.num_pairs, 1);
+    // Its middle moves by 0.15 h to the wall, of which its lower end is 0.1 h away.
+    scene.move(
+        [&](int, Vector2 const &x)
+        {
+          bool const on_diagonal = (x[0] < 0.5 * h) == (x[1] < 0.5);
+          return Vector2{x[0] < 0.5 * h ? 0.0 : -0.3 * h, (on_diagonal ? -0.01 : 0.01) * h};
+        });
+    double const still = scene.state.centroid(0, 0);
+    EXPECT_NEAR(expectKept(scene, 1, thickness)[0], still - 0.1 * h, 1e-8);
   }
 }
