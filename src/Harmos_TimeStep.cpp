@@ -107,6 +107,21 @@ void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials,
   updateVolumes(mesh);
 }
 
+/// Forces and the velocities that they predict.
+PredictionSums accelerate(Scene &scene, CycleState &s, double dt)
+{
+  LagrangeOptions options = scene.lagrange;
+  options.energy_lag = 0.5 * s.dt; // of the step that lies behind, which the one ahead stands for
+  if (scene.kinematics != Kinematics::Lagrangian)
+    return computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options,
+                                   dt, s.work);
+  computeCornerForces(scene.mesh, s.pairs, s.state, scene.materials, options, s.work);
+  addSubzonalForces(scene.mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
+                    scene.lagrange.subzonal_pressure, s.work);
+  return predictVelocities(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options, dt,
+                           s.work);
+}
+
 } // namespace
 
 PointField pointField(Scene const &scene, CycleState const &s)
@@ -134,14 +149,8 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   {
     PhaseTimer timer("lagrange", times.lagrange);
     prepareWork(s.pairs, s.dof_nodes, work);
-    LagrangeOptions options = scene.lagrange;
-    options.energy_lag = 0.5 * s.dt; // of the step that lies behind, which the one ahead stands for
-    if (scene.kinematics == Kinematics::Xfem && options.cut_cell_stress != CutCellStress::CellMean)
-      computeCutGradients(mesh, s.pairs, s.regions, scene.materials, options.cut_cell_stress, work.cut);
-    computeCornerForces(mesh, s.pairs, s.state, scene.materials, options, work);
-    if (scene.kinematics == Kinematics::Lagrangian)
-      addSubzonalForces(mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
-                        scene.lagrange.subzonal_pressure, work);
+    if (scene.kinematics == Kinematics::Xfem && scene.lagrange.cut_cell_stress != CutCellStress::CellMean)
+      computeCutGradients(mesh, s.pairs, s.regions, scene.materials, scene.lagrange.cut_cell_stress, work.cut);
   }
 
   if (s.cycle == 0)
@@ -158,8 +167,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   {
     {
       PhaseTimer timer("lagrange", times.lagrange);
-      prediction = predictVelocities(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials,
-                                     scene.lagrange, dt, work);
+      prediction = report.repeats == 0 ? accelerate(scene, s, dt)
+                                       : predictVelocities(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary,
+                                                           scene.materials, scene.lagrange, dt, work);
     }
     {
       PhaseTimer timer("constrain", times.constrain);

@@ -23,6 +23,15 @@ namespace Harmos
 #define HARMOS_RARE_FUNCTION KOKKOS_FUNCTION
 #endif
 
+/// Before a short loop of constant length: its variables then stay in registers.
+#if defined(__clang__) || defined(__CUDACC__)
+#define HARMOS_UNROLL _Pragma("unroll")
+#elif defined(__GNUC__)
+#define HARMOS_UNROLL _Pragma("GCC unroll 8")
+#else
+#define HARMOS_UNROLL
+#endif
+
 #ifdef HARMOS_VECTOR_TYPES
 #if defined(__AVX512F__)
 constexpr int pack_width = 8;
@@ -182,6 +191,7 @@ KOKKOS_FORCEINLINE_FUNCTION void transposeFrom(Pack (&p)[pack_width])
 {
   if constexpr (Step < pack_width)
   {
+    HARMOS_UNROLL
     for (int row = 0; row < pack_width; ++row)
       if ((row & Step) == 0)
         swapBlocks<Step>(p[row], p[row + Step], std::make_integer_sequence<int, pack_width>());
@@ -334,12 +344,15 @@ KOKKOS_FORCEINLINE_FUNCTION double laneSum(Pack const &p)
 template <class Row>
 KOKKOS_FORCEINLINE_FUNCTION void loadRows(Row const &row, Pack (&field)[8])
 {
+  HARMOS_UNROLL
   for (int f = 0; f < 8; f += pack_width)
   {
     Pack p[pack_width];
+    HARMOS_UNROLL
     for (int lane = 0; lane < pack_width; ++lane)
       p[lane] = loadPack(row(lane) + f);
     transpose(p);
+    HARMOS_UNROLL
     for (int i = 0; i < pack_width; ++i)
       field[f + i] = p[i];
   }
@@ -352,15 +365,20 @@ constexpr unsigned all_lanes = (1u << pack_width) - 1u;
 template <class Row>
 KOKKOS_FORCEINLINE_FUNCTION void storeRows(Pack const (&field)[8], unsigned lanes, Row const &row)
 {
+  HARMOS_UNROLL
   for (int f = 0; f < 8; f += pack_width)
   {
     Pack p[pack_width];
+    HARMOS_UNROLL
     for (int i = 0; i < pack_width; ++i)
       p[i] = field[f + i];
     transpose(p);
     if (lanes == all_lanes)
+    {
+      HARMOS_UNROLL
       for (int lane = 0; lane < pack_width; ++lane)
         storePack(row(lane) + f, p[lane]);
+    }
     else
       for (int lane = 0; lane < pack_width; ++lane)
         if ((lanes >> lane & 1u) != 0u)

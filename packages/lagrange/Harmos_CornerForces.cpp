@@ -4,6 +4,7 @@
 #include <Harmos_CellVoid.hpp>
 #include <Harmos_Failure.hpp>
 #include <Harmos_Prefetch.hpp>
+#include <detail/Harmos_NodeKernels.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -26,6 +27,7 @@ struct CornerForceFunctor
   RowPointer<double, 8> corner_force;
   detail::CutPairs cut;
   View<double *[3]> before;
+  int begin = 0, end = 0; // pairs
 
   /// Tension: failed pairs bear none, the others what they would not fail at. failPairs leaves none beyond, but the
   /// remap mixes: of vapour and condensed matter, both without pressure, the mean energy and volume may stand at the
@@ -92,31 +94,54 @@ struct CornerForceFunctor
 
   KOKKOS_INLINE_FUNCTION void operator()(int block) const
   {
-    detail::forPackedPairs(material_of, pairs.num_pairs, block,
+    detail::forPackedPairs(material_of, begin, end, block,
                            [&](int number, int const *pair, unsigned lanes) { compute(number, pair, lanes); });
   }
 };
 
 template <Geometry geometry>
-void launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state, View<Material *> const &materials,
-            LagrangeOptions const &options, LagrangeWork &work)
+detail::PairKernel kernelOf(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                            View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork const &work)
 {
-  Kokkos::parallel_for("Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(pairs.num_pairs)),
-                       CornerForceFunctor<geometry>{options, pairs, state, pairs.material.data(), pairs.cell.data(),
-                                                    materials.data(), mesh.cell_node, pairs.dof_node,
-                                                    mesh.node_position, state.velocity, state.record, work.corner_force,
-                                                    detail::CutPairs(work.cut, pairs), work.before});
+  CornerForceFunctor<geometry> const whole{options,
+                                           pairs,
+                                           state,
+                                           pairs.material.data(),
+                                           pairs.cell.data(),
+                                           materials.data(),
+                                           mesh.cell_node,
+                                           pairs.dof_node,
+                                           mesh.node_position,
+                                           state.velocity,
+                                           state.record,
+                                           work.corner_force,
+                                           detail::CutPairs(work.cut, pairs),
+                                           work.before};
+  return [whole](int begin, int end)
+  {
+    CornerForceFunctor<geometry> part = whole;
+    part.begin = begin;
+    part.end = end;
+    Kokkos::parallel_for("Harmos::lagrange::cornerForces", RangePolicy(0, numPacks(end - begin)), part);
+  };
 }
 
 } // namespace
 
+detail::PairKernel detail::cornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                                        View<Material *> const &materials, LagrangeOptions const &options,
+                                        LagrangeWork &work)
+{
+  auto const kernel = mesh.geometry == Geometry::Planar ? kernelOf<Geometry::Planar> : kernelOf<Geometry::Axisymmetric>;
+  if (state.tracks_damage && work.before.extent(0) < static_cast<std::size_t>(pairs.num_pairs))
+    work.before = View<double *[3]>("Harmos::lagrange::before", pairs.num_pairs + pairs.num_pairs / 4);
+  return kernel(mesh, pairs, state, materials, options, work);
+}
+
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work)
 {
-  auto const launcher = mesh.geometry == Geometry::Planar ? launch<Geometry::Planar> : launch<Geometry::Axisymmetric>;
-  if (state.tracks_damage && work.before.extent(0) < static_cast<std::size_t>(pairs.num_pairs))
-    work.before = View<double *[3]>("Harmos::lagrange::before", pairs.num_pairs + pairs.num_pairs / 4);
-  launcher(mesh, pairs, state, materials, options, work);
+  detail::cornerForces(mesh, pairs, state, materials, options, work)(0, pairs.num_pairs);
 }
 
 } // namespace Harmos

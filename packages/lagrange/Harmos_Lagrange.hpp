@@ -7,6 +7,8 @@
 #include <Harmos_CutGradients.hpp>
 #include <Harmos_Material.hpp>
 
+#include <vector>
+
 namespace Harmos
 {
 
@@ -32,6 +34,14 @@ struct LagrangeOptions
   double energy_lag = 0.0;      // [s] of internal energies behind specific volumes; the cycle sets it to half a step
 };
 
+/// Nodes that follow pieces of the cells (nodeEnds), of the mesh with these rows.
+struct MeshPieces
+{
+  View<int *> of; // mesh.node_cell.offset
+  int cells = 0;  // a piece
+  std::vector<int> node_end;
+};
+
 /// Work arrays of one Lagrangian step. Their extents may exceed the numbers of pairs and dof nodes (prepareWork).
 struct LagrangeWork
 {
@@ -44,6 +54,7 @@ struct LagrangeWork
   double largest_cell = 0.0;      // volume; with the altitudes
   CutGradients cut;               // of this time's filled regions; empty: no cut cell is told from a pure one
   View<double *[3]> before;       // num_pairs, BeforeField: what failPairs needs of time n
+  MeshPieces pieces;              // of computeForcesAndPredict
 };
 
 /// Columns of LagrangeWork::before.
@@ -157,6 +168,13 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
                                  PairState const &state, BoundaryConditions const &boundary,
                                  View<Material *> const &materials, LagrangeOptions const &options, double dt,
                                  LagrangeWork &work);
+
+/// computeCornerForces and predictVelocities in one, to the bit: piece by piece of the cells, with the nodes all of
+/// whose cells have forces, while those are in the cache. Sums are added piece by piece.
+PredictionSums computeForcesAndPredict(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                       NodeMaterialPairs const &dof_nodes, PairState const &state,
+                                       BoundaryConditions const &boundary, View<Material *> const &materials,
+                                       LagrangeOptions const &options, double dt, LagrangeWork &work);
 
 /// Keep every dof node within 0.9 of the least altitude of the cells around: dt |v_half| <= 0.9 altitude.
 ///

@@ -3,15 +3,20 @@
 
 #include <Harmos_JoinReducer.hpp>
 #include <Harmos_LoadPoints.hpp>
+#include <Harmos_NodeEnds.hpp>
 #include <Harmos_Prefetch.hpp>
 #include <Harmos_RowPointer.hpp>
+#include <detail/Harmos_NodeKernels.hpp>
 
 #include <limits>
+#include <type_traits>
 
 namespace Harmos
 {
 namespace
 {
+
+constexpr int cells_at_once = 2048; // their records and forces stay in the cache until their nodes have gathered them
 
 /// What a dof node gathers from the pairs around it, in the order of mesh.node_cell.
 struct Gathered
@@ -115,7 +120,7 @@ struct PredictFunctor
   Vector2 gravity;
   bool has_gravity;
   double dt;
-  int num_dofs;
+  int begin, end; // dof nodes
 
   KOKKOS_FORCEINLINE_FUNCTION Vector2 accelerate(int dof, Gathered const &g) const
   {
@@ -257,8 +262,8 @@ struct PredictFunctor
 
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int block, Sums &sums) const
   {
-    int const first = block * pack_width;
-    int const count = Math::min(pack_width, num_dofs - first);
+    int const first = begin + block * pack_width;
+    int const count = Math::min(pack_width, end - first);
     Plain const plain = count == pack_width && inRuns(first) ? gatherRuns(first) : gatherLanes(first, count, sums);
     if (plain.lanes == 0u)
       return;
@@ -266,7 +271,7 @@ struct PredictFunctor
     if (count == pack_width)
       loadPointRun(velocity.row(first), x, y);
     else
-      loadPoints([&](int lane) { return velocity.row(Math::min(first + lane, num_dofs - 1)); }, x, y);
+      loadPoints([&](int lane) { return velocity.row(Math::min(first + lane, end - 1)); }, x, y);
     auto const massive = plain.mass > Pack(0.0);
     Pack const per_mass = select(massive, Pack(1.0 / select(massive, plain.mass, Pack(1.0))), Pack(0.0));
     x = x + per_mass * (dt * plain.force_x);
@@ -285,10 +290,10 @@ struct PredictFunctor
 
 } // namespace
 
-PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
-                                 PairState const &state, BoundaryConditions const &boundary,
-                                 View<Material *> const &materials, LagrangeOptions const &options, double dt,
-                                 LagrangeWork &work)
+detail::NodeKernel detail::prediction(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                      NodeMaterialPairs const &dof_nodes, PairState const &state,
+                                      BoundaryConditions const &boundary, View<Material *> const &materials,
+                                      LagrangeOptions const &options, double dt, LagrangeWork &work)
 {
   GatherCorners const gather{mesh.node_cell.offset.data(),
                              mesh.node_cell.item.data(),
@@ -300,23 +305,70 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
                              mesh.corner_share.part,
                              mesh.geometry == Geometry::Axisymmetric};
   Vector2 const gravity = options.gravity;
-  PredictFunctor const predict{gather,
-                               boundary,
-                               dof_nodes.node.data(),
-                               dof_nodes.material.data(),
-                               mesh.node_owned.data(),
-                               boundary.node_index.data(),
-                               state.velocity,
-                               work.predicted,
-                               work.dof_mass.data(),
-                               gravity,
-                               gravity[0] != 0.0 || gravity[1] != 0.0,
-                               dt,
-                               dof_nodes.num_dof_nodes};
-  Sums result;
-  Kokkos::parallel_reduce("Harmos::lagrange::predictVelocities", RangePolicy(0, numPacks(dof_nodes.num_dof_nodes)),
-                          predict, JoinReducer<Sums>(result));
-  return result;
+  PredictFunctor const whole{gather,
+                             boundary,
+                             dof_nodes.node.data(),
+                             dof_nodes.material.data(),
+                             mesh.node_owned.data(),
+                             boundary.node_index.data(),
+                             state.velocity,
+                             work.predicted,
+                             work.dof_mass.data(),
+                             gravity,
+                             gravity[0] != 0.0 || gravity[1] != 0.0,
+                             dt,
+                             0,
+                             0};
+  return [whole](int begin, int end, PredictionSums &sums)
+  {
+    PredictFunctor part = whole;
+    part.begin = begin;
+    part.end = end;
+    Sums of_part, all;
+    Kokkos::parallel_reduce("Harmos::lagrange::predictVelocities", RangePolicy(0, numPacks(end - begin)), part,
+                            JoinReducer<Sums>(of_part));
+    static_cast<PredictionSums &>(all) = sums;
+    all.join(of_part);
+    sums = all;
+  };
+}
+
+PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                                 PairState const &state, BoundaryConditions const &boundary,
+                                 View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                                 LagrangeWork &work)
+{
+  PredictionSums sums;
+  detail::prediction(mesh, pairs, dof_nodes, state, boundary, materials, options, dt, work)(0, dof_nodes.num_dof_nodes,
+                                                                                            sums);
+  return sums;
+}
+
+PredictionSums computeForcesAndPredict(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                       NodeMaterialPairs const &dof_nodes, PairState const &state,
+                                       BoundaryConditions const &boundary, View<Material *> const &materials,
+                                       LagrangeOptions const &options, double dt, LagrangeWork &work)
+{
+  auto const forces = detail::cornerForces(mesh, pairs, state, materials, options, work);
+  auto const predict = detail::prediction(mesh, pairs, dof_nodes, state, boundary, materials, options, dt, work);
+  bool const on_host = std::is_same<MemorySpace, Kokkos::HostSpace>::value;
+  int const piece = on_host ? cells_at_once * ExecutionSpace().concurrency() : Math::max(mesh.num_cells, 1);
+  if (work.pieces.of.data() != mesh.node_cell.offset.data() || work.pieces.cells != piece)
+    work.pieces = {mesh.node_cell.offset, piece, nodeEnds(mesh, piece)};
+  PredictionSums sums;
+  int pair = 0, dof = 0;
+  int const count = static_cast<int>(work.pieces.node_end.size());
+  for (int t = 0; t < count; ++t)
+  {
+    bool const last = t + 1 == count;
+    int const pair_end = last ? pairs.num_pairs : pairs.offset((t + 1) * piece);
+    int const dof_end = last ? dof_nodes.num_dof_nodes : dof_nodes.offset(work.pieces.node_end[t]);
+    forces(pair, pair_end);
+    predict(dof, dof_end, sums);
+    pair = pair_end;
+    dof = dof_end;
+  }
+  return sums;
 }
 
 } // namespace Harmos

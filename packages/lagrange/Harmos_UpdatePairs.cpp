@@ -58,6 +58,7 @@ KOKKOS_FORCEINLINE_FUNCTION Pack cornerPower(RowPointer<double, 8> const &corner
   Pack f[8];
   loadIndexedRows(corner_force, pair, run, f);
   Pack sum = 0.0;
+  HARMOS_UNROLL
   for (int k = 0; k < 4; ++k)
     sum += f[2 * k] * (before.x[k] + half.x[k]) + f[2 * k + 1] * (before.y[k] + half.y[k]);
   return -0.5 * sum;
@@ -184,7 +185,7 @@ struct UpdateFunctor
 
   KOKKOS_INLINE_FUNCTION void operator()(int block, UpdateSums &sums) const
   {
-    detail::forPackedPairs(material_of, pairs.num_pairs, block,
+    detail::forPackedPairs(material_of, 0, pairs.num_pairs, block,
                            [&](int number, int const *pair, unsigned lanes) { update(number, pair, lanes, sums); });
   }
 };

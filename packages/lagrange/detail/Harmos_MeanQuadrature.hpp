@@ -2,7 +2,7 @@
 #ifndef HARMOS_MEAN_QUADRATURE_HPP
 #define HARMOS_MEAN_QUADRATURE_HPP
 
-#include <Harmos_Kokkos.hpp>
+#include <Harmos_Pack.hpp>
 
 namespace Harmos
 {
@@ -21,6 +21,7 @@ template <class T>
 KOKKOS_INLINE_FUNCTION Corners<T> moved(Corners<T> const &a, double s, Corners<T> const &b)
 {
   Corners<T> result;
+  HARMOS_UNROLL
   for (int k = 0; k < 4; ++k)
   {
     result.x[k] = a.x[k] + s * b.x[k];
@@ -107,6 +108,7 @@ template <class T>
 KOKKOS_INLINE_FUNCTION T leastCornerArea(Corners<T> const &c)
 {
   T ex[4], ey[4];
+  HARMOS_UNROLL
   for (int k = 0; k < 4; ++k)
   {
     ex[k] = c.x[(k + 1) % 4] - c.x[k];

@@ -48,6 +48,7 @@ KOKKOS_FORCEINLINE_FUNCTION Corners<Pack> packedCorners(PackedCornerRows const &
                                                         RowPointer<double, 2> const &value)
 {
   Corners<Pack> c;
+  HARMOS_UNROLL
   for (int k = 0; k < 4; ++k)
     loadCorner(rows, value, k, c.x[k], c.y[k]);
   return c;
@@ -96,15 +97,16 @@ HARMOS_RARE_FUNCTION inline unsigned selectLanes(int const *material_of, int fir
   return lanes;
 }
 
-/// Visit pack number `block` of pairs in parts of one material: visit(material, pair, lanes), bit l of `lanes` set
+/// Visit pack number `block` of the pairs from `begin` to `end` in parts of one material: visit(material, pair, lanes), bit l of `lanes` set
 /// where lane l is to be stored. The other lanes repeat a pair of the part, so that every lane holds something sound.
 ///
 /// One call of `visit`, so that there is one compiled copy of its arithmetic: two might round differently.
 template <class Visitor>
-KOKKOS_FORCEINLINE_FUNCTION void forPackedPairs(int const *material_of, int num_pairs, int block, Visitor const &visit)
+KOKKOS_FORCEINLINE_FUNCTION void forPackedPairs(int const *material_of, int begin, int end, int block,
+                                                Visitor const &visit)
 {
-  int const first = block * pack_width;
-  int const count = Math::min(pack_width, num_pairs - first);
+  int const first = begin + block * pack_width;
+  int const count = Math::min(pack_width, end - first);
   bool const uniform =
       count == pack_width && !anySet(loadNumbers(material_of + first) ^ countFrom(material_of[first], 0));
   unsigned left = (1u << count) - 1u;
@@ -127,6 +129,7 @@ template <class T>
 KOKKOS_INLINE_FUNCTION T largestSpeedSquared(Corners<T> const &v)
 {
   T largest = T(v.x[0] * v.x[0] + v.y[0] * v.y[0]);
+  HARMOS_UNROLL
   for (int k = 1; k < 4; ++k)
     largest = Math::max(largest, T(v.x[k] * v.x[k] + v.y[k] * v.y[k]));
   return largest;

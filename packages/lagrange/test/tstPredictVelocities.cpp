@@ -86,6 +86,54 @@ TEST(PredictVelocities, SlipWalls_takeTheNormalImpulseAndBookIt)
   }
 }
 
+TEST(ForcesAndPrediction, pieceByPiece_giveTheBitsOfAllAtOnce)
+{
+  auto const contents = [](int i, int j)
+  {
+    return i + j > 60 ? std::vector<Fill>{{1, 1.0}} : i + j == 60 ? std::vector<Fill>{{0, 0.25}, {1, 0.5}} : full(i, j);
+  };
+  for (Kinematics const kinematics : {Kinematics::Xfem, Kinematics::Single})
+  {
+    Scene s = makeScene(83, 71, 0.2, {elastic(), fluid()}, contents, kinematics,
+                        std::vector<BoundaryKind>(4, BoundaryKind::SlipWall));
+    disturb(s, 8);
+    s.options.gravity = {0.3, -2.0};
+    double const dt = 0.05;
+    PredictionSums const of_all = s.predict(dt);
+    auto const copy = [](auto const &view)
+    {
+      auto const kept = Kokkos::create_mirror(view);
+      Kokkos::deep_copy(kept, view);
+      Kokkos::deep_copy(view, 0.0);
+      return kept;
+    };
+    auto const force = copy(s.work.corner_force);
+    auto const predicted = copy(s.work.predicted);
+    auto const mass = copy(s.work.dof_mass);
+    PredictionSums const sums =
+        computeForcesAndPredict(s.mesh, s.pairs, s.dof_nodes, s.state, s.boundary, s.materials, s.options, dt, s.work);
+    EXPECT_GT(s.work.pieces.node_end.size(), 2u);
+    auto const force_now = onHost(s.work.corner_force);
+    auto const predicted_now = onHost(s.work.predicted);
+    auto const mass_now = onHost(s.work.dof_mass);
+    for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
+      for (int i = 0; i < 8; ++i)
+        ASSERT_EQ(force_now(pair, i), force(pair, i));
+    for (int dof = 0; dof < s.dof_nodes.num_dof_nodes; ++dof)
+    {
+      ASSERT_EQ(mass_now(dof), mass(dof));
+      for (int d = 0; d < 2; ++d)
+        ASSERT_EQ(predicted_now(dof, d), predicted(dof, d));
+    }
+    for (int d = 0; d < 2; ++d)
+    {
+      EXPECT_NEAR(sums.gravity_impulse[d] / of_all.gravity_impulse[d], 1.0, 1e-12);
+      EXPECT_NEAR(sums.wall_impulse[d] / of_all.wall_impulse[d], 1.0, 1e-10);
+    }
+    EXPECT_NEAR(sums.gravity_work / of_all.gravity_work, 1.0, 1e-10);
+  }
+}
+
 TEST(PredictVelocities, FreeFall_isUniformAndItsWorkIsTheKineticEnergy)
 {
   Scene s = makeScene(3, 3, 0.2, {elastic(), fluid()}, halves);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_MeshBuilder.hpp>
+#include <Harmos_NodeEnds.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <random>
 #include <stdexcept>
 
 namespace
@@ -77,6 +79,41 @@ TEST(BuildMesh, threeCellsAroundANode_connectivityIsComplete)
   EXPECT_EQ(face(0, 0), 4 * 2 + 3);
   EXPECT_EQ(face(0, 3), 4 * 1 + 0);
   EXPECT_EQ(face(0, 1), -1);
+}
+
+TEST(NodeEnds, nodesBelowAnEnd_haveNoCellBeyondThePiece)
+{
+  for (bool const mixed : {false, true})
+  {
+    HostMesh whole = rectilinearMesh(uniform(9), uniform(7));
+    if (mixed)
+    {
+      std::mt19937 random(3);
+      std::shuffle(whole.cell.begin(), whole.cell.end(), random);
+      whole.face_boundary.assign(whole.cell.size(), {-1, -1, -1, -1});
+    }
+    Mesh const mesh = buildMesh(whole);
+    auto const offset = onHost(mesh.node_cell.offset);
+    auto const item = onHost(mesh.node_cell.item);
+    for (int const piece : {1, 10, 63, 100})
+    {
+      auto const ends = nodeEnds(mesh, piece);
+      ASSERT_EQ(static_cast<int>(ends.size()), (63 + piece - 1) / piece);
+      EXPECT_EQ(ends.back(), mesh.num_nodes);
+      auto const lastPiece = [&](int node) { return item(offset(node + 1) - 1) / 4 / piece; };
+      int node = 0;
+      for (int t = 0; t < static_cast<int>(ends.size()); ++t)
+      {
+        for (; node < ends[t]; ++node)
+          EXPECT_LE(lastPiece(node), t);
+        if (ends[t] < mesh.num_nodes)
+        {
+          EXPECT_GT(lastPiece(ends[t]), t); // no later end would do
+        }
+      }
+      EXPECT_EQ(node, mesh.num_nodes);
+    }
+  }
 }
 
 /// Owners in a chequer of blocks, so that owned and halo cells interleave.

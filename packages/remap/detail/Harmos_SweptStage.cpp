@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptStage.hpp>
 
+#include <Harmos_NodeEnds.hpp>
 #include <Harmos_Pack.hpp>
 
 #include <algorithm>
@@ -34,24 +35,16 @@ int largestStride(Mesh const &mesh)
   return stride;
 }
 
-/// Ends of the nodes of each chunk; false where a node would come when rows of its cells are gone.
-bool placeNodes(HostView<int *> const &offset, HostView<int *> const &item, SweptChunks &chunks)
+/// Whether no node comes when rows of its cells are gone.
+bool rowsLast(Mesh const &mesh, SweptChunks const &chunks)
 {
-  int const num_nodes = static_cast<int>(offset.extent(0)) - 1;
-  chunks.node_end.assign(chunks.count, num_nodes);
-  int reached = 0; // chunk of the nodes so far
-  for (int node = 0; node < num_nodes; ++node)
-  {
-    int const begin = offset(node), end = offset(node + 1);
-    if (begin == end)
-      continue;
-    int const first = item(begin) / 4 / chunks.chunk; // ascending
-    int const last = item(end - 1) / 4 / chunks.chunk;
-    for (; reached < last; ++reached)
-      chunks.node_end[reached] = node;
-    if (first + 3 < reached)
-      return false;
-  }
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_cell.offset);
+  auto const item = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_cell.item);
+  int node = 0;
+  for (int t = 0; t < chunks.count; ++t)
+    for (; node < chunks.node_end[t]; ++node)
+      if (offset(node) < offset(node + 1) && item(offset(node)) / 4 / chunks.chunk + 3 < t)
+        return false;
   return true;
 }
 
@@ -66,12 +59,11 @@ SweptChunks sweptChunks(Mesh const &mesh)
   int const wanted = on_host ? std::max(largestStride(mesh), least_chunk * threads) : mesh.num_cells;
   while (chunks.chunk < wanted)
     chunks.chunk *= 2;
-  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_cell.offset);
-  auto const item = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_cell.item);
   for (;; chunks.chunk *= 2)
   {
     chunks.count = (mesh.num_cells + chunks.chunk - 1) / chunks.chunk;
-    if (placeNodes(offset, item, chunks) || chunks.count <= 1)
+    chunks.node_end = nodeEnds(mesh, chunks.chunk);
+    if (chunks.count <= 1 || rowsLast(mesh, chunks))
       return chunks;
   }
 }

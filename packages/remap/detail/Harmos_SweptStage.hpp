@@ -8,15 +8,6 @@
 
 #include <vector>
 
-/// Before a short loop of constant length: its variables then stay in registers.
-#if defined(__clang__) || defined(__CUDACC__)
-#define HARMOS_UNROLL _Pragma("unroll")
-#elif defined(__GNUC__)
-#define HARMOS_UNROLL _Pragma("GCC unroll 8")
-#else
-#define HARMOS_UNROLL
-#endif
-
 namespace Harmos
 {
 namespace RemapDetail
