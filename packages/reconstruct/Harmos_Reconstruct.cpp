@@ -46,9 +46,8 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
     givenOrder(components, options.order, order);
     return fixedPlan(field, components, options.method, options.sliver, order);
   }
-  return components.count > max_exhaustive_components
-             ? greedyPlan(field, components, options.sliver)
-             : partedPlan(field, components, options.sliver, bestPlan(field, components, options.sliver));
+  return components.count > max_exhaustive_components ? greedyPlan(field, components, options.sliver)
+                                                      : bestPlan(field, components, options.sliver);
 }
 
 /// Cut the cell as planned, write the materials' regions, and return the largest volume error.
@@ -74,21 +73,6 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
       region[v] = components.fromUnit(part[v]);
   };
   Region polygon = components.polygon;
-  if (plan.parted)
-  {
-    double const open[2] = {plan.void_part, components.volume[2] - plan.void_part};
-    Division const parts = divide(polygon, plan.normal[0], components.volume[0] + open[0],
-                                  components.volume[1] + open[1], components.weight);
-    for (int k = 0; k < 2; ++k)
-    {
-      Region const &part = k == 0 ? parts.inside : parts.outside;
-      write(open[k] > least_void
-                ? divide(part, plan.normal[k + 1], components.volume[k], open[k], components.weight).inside
-                : part,
-            k);
-    }
-    return status;
-  }
   ComponentSet rest = components.all();
   for (int i = 0; i + 1 < plan.count; ++i)
   {
