@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# For the CMakeLists.txt of a package that is configured by itself (cmake -S packages/<name>): finds what is installed
+# (kernels: Kokkos alone, else Trilinos and what goes with it), adds the packages that it needs without their tests.
+get_filename_component(Harmos_SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+include(HarmosTribits)
+
+# harmos_packages_below(<folder>): appends the folders of the packages that one in <folder> needs to harmos_below, each
+# after those that it needs itself; sets harmos_needs_trilinos where one of all these uses more than Kokkos.
+function(harmos_packages_below folder)
+  include(${folder}/cmake/Dependencies.cmake)
+  if(HARMOS_DECLARED_LIB_REQUIRED_TPLS)
+    set(harmos_needs_trilinos ON)
+  endif()
+  foreach(package IN LISTS HARMOS_DECLARED_LIB_REQUIRED_PACKAGES)
+    if(package MATCHES "^Harmos(.+)$")
+      string(TOLOWER packages/${CMAKE_MATCH_1} needed)
+      harmos_packages_below(${Harmos_SOURCE_DIR}/${needed})
+      list(APPEND harmos_below ${Harmos_SOURCE_DIR}/${needed})
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES harmos_below)
+  set(harmos_below ${harmos_below} PARENT_SCOPE)
+  set(harmos_needs_trilinos ${harmos_needs_trilinos} PARENT_SCOPE)
+endfunction()
+
+set(harmos_below "")
+set(harmos_needs_trilinos OFF)
+harmos_packages_below(${CMAKE_CURRENT_SOURCE_DIR})
+
+set(HARMOS_ENABLE_TRILINOS ${harmos_needs_trilinos})
+option(HARMOS_ENABLE_TESTS "Build the tests" ON)
+option(HARMOS_ENABLE_BENCHMARKS "Build the benchmarks (Google Benchmark)" OFF)
+option(HARMOS_WARNINGS_AS_ERRORS "Compile with -Werror" OFF)
+include(HarmosDefaults)
+include(HarmosThirdParty)
+include(HarmosLibrary)
+include(HarmosTests)
+
+set(harmos_tests_of_package ${HARMOS_ENABLE_TESTS})
+set(harmos_benchmarks_of_package ${HARMOS_ENABLE_BENCHMARKS})
+set(HARMOS_ENABLE_TESTS OFF)
+set(HARMOS_ENABLE_BENCHMARKS OFF)
+foreach(folder IN LISTS harmos_below)
+  get_filename_component(name ${folder} NAME)
+  add_subdirectory(${folder} ${CMAKE_CURRENT_BINARY_DIR}/needed/${name})
+endforeach()
+set(HARMOS_ENABLE_TESTS ${harmos_tests_of_package})
+set(HARMOS_ENABLE_BENCHMARKS ${harmos_benchmarks_of_package})
+if(HARMOS_ENABLE_TESTS)
+  enable_testing()
+  harmos_add_test_mains()
+endif()
