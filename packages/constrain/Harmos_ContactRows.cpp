@@ -276,14 +276,15 @@ struct RowBuilder
         (b.material >= 0 && options.interaction(a.material, b.material).kind == Interaction::Bonded))
       return false;
     double const slope = dot(a.normal, b.normal);
-    double const middle = dt * closing(a, b, a.midpoint, to.gap);
     for (double const side : {-0.5, 0.5})
     {
       Vector2 const end = a.midpoint + (side * a.length) * perpendicular(a.normal);
       double const gap = dot(b.midpoint - end, b.normal) / slope; // to the line of b
       double const comes = dt * closing(a, b, end, gap);
-      double const lead = (to.gap - gap) + (comes - middle);
-      if (comes > most_approach * a.cell_size && lead > least_lead * a.cell_size)
+      if (comes <= most_approach * a.cell_size)
+        continue;
+      double const middle = dt * closing(a, b, a.midpoint, to.gap);
+      if ((to.gap - gap) + (comes - middle) > least_lead * a.cell_size)
         return true;
     }
     return false;
@@ -330,16 +331,27 @@ struct RowBuilder
   }
 
   /// Weights: the means of the shape functions over the segment middle +- half, as its traction acts on the nodes;
-  /// two Gauss points are exact for bilinear ones, about an axis too. half = 0: their values at a point.
+  /// two Gauss points are exact for bilinear ones, about an axis too. half = 0: their values at a point. Sides that
+  /// move as a rigid body, or not at all, have none.
   KOKKOS_INLINE_FUNCTION void fillSide(InterfaceSegment const &s, Vector2 const &middle, Vector2 const &half, int body,
                                        int dof[4], double weight[4]) const
   {
     constexpr double gauss = 0.57735026918962576; // 1 / sqrt 3
+    for (int k = 0; k < 4; ++k)
+    {
+      weight[k] = 0.0;
+      dof[k] = body == -1 ? pairs.dof_node(s.pair, k) : -1;
+    }
+    if (body != -1)
+      return;
     Quadrilateral const q = cellQuadrilateral(mesh, s.cell);
+    if (mesh.geometry == Geometry::Planar && half[0] == 0.0 && half[1] == 0.0)
+    {
+      shapeFunctionsAt(q, middle, weight);
+      return;
+    }
     AreaWeight const ring = areaWeight(mesh.geometry, {0.0, 0.0});
     double total = 0.0;
-    for (int k = 0; k < 4; ++k)
-      weight[k] = 0.0;
     for (double const side : {-gauss, gauss})
     {
       Vector2 const x = middle + side * half;
@@ -352,8 +364,6 @@ struct RowBuilder
     }
     for (int k = 0; k < 4; ++k)
       weight[k] /= total;
-    for (int k = 0; k < 4; ++k)
-      dof[k] = body == -1 ? pairs.dof_node(s.pair, k) : -1;
   }
 
   /// Number of the nearest bond of the row's materials within reach; ties to the lower number.

@@ -202,12 +202,31 @@ struct SegmentFinder
       }
   }
 
-  /// Whether one region of the same material lies beyond the whole edge.
-  static KOKKOS_INLINE_FUNCTION bool coveredByLike(EdgeCovers const &covers, int material, double length,
-                                                   double tolerance)
+  /// Whether the region of the same material across a face lies beyond the whole edge: most edges on faces.
+  KOKKOS_INLINE_FUNCTION bool coveredByLike(int cell, int material, Edge const &edge, double tolerance) const
   {
-    return covers.count == 1 && covers.material[0] == material && covers.begin[0] <= tolerance &&
-           covers.end[0] >= length - tolerance;
+    int const like = pairs.find(cell, material), first = regions.cell_region(cell);
+    if (like < 0 || first < 0)
+      return false;
+    EdgeCovers covers;
+    addCover(edge, regions.polygon(first + like - pairs.offset(cell)), material, tolerance, covers);
+    return covers.count == 1 && covers.begin[0] <= tolerance && covers.end[0] >= edge.length - tolerance;
+  }
+
+  /// Whether the region of a material in a cell has the edge from a to b, corner for corner.
+  KOKKOS_INLINE_FUNCTION bool hasEdge(int cell, int material, Vector2 const &a, Vector2 const &b) const
+  {
+    int const like = pairs.find(cell, material), first = regions.cell_region(cell);
+    if (like < 0 || first < 0)
+      return false;
+    Region const &region = regions.polygon(first + like - pairs.offset(cell));
+    for (int i = 0; i < region.size; ++i)
+      if (region[i][0] == a[0] && region[i][1] == a[1])
+      {
+        Vector2 const &next = region[region.next(i)];
+        return next[0] == b[0] && next[1] == b[1];
+      }
+    return false;
   }
 
   /// Whether nothing of a material can show through a face: it lies beyond too, or nothing that contact heeds.
@@ -216,6 +235,22 @@ struct SegmentFinder
     int const across = mesh.face_neighbour(cell, face);
     return across >= 0 ? surface.filling(across / 4) == material
                        : mesh.face_boundary(cell, face) >= 0 && !surface.contactWall(cell, face);
+  }
+
+  /// Whether all faces of a pure cell are hidden, some by a region that has the very face: most cells beside mixed
+  /// ones.
+  KOKKOS_INLINE_FUNCTION bool isHidden(int cell) const
+  {
+    int const material = surface.filling(cell);
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    bool hidden = material >= 0;
+    for (int k = 0; hidden && k < 4; ++k)
+    {
+      int const across = mesh.face_neighbour(cell, k);
+      hidden = isHidden(cell, k, material) || (across >= 0 && hasEdge(across / 4, material, q[(k + 1) & 3], q[k]));
+      hidden = hidden && !(surface.walls && surface.contactWall(cell, k));
+    }
+    return hidden;
   }
 
   /// Write the segments of one edge of a pair's region, on a face of its cell or (face = -1) inside, from `first` on,
@@ -233,10 +268,10 @@ struct SegmentFinder
       wholeEdge(edge.length, pieces);
     else
     {
+      if (across >= 0 && coveredByLike(across / 4, material, edge, frame.tolerance))
+        return 0;
       EdgeCovers covers;
       coverBy(face < 0 ? cell : across / 4, face < 0 ? pair : -1, edge, frame.tolerance, covers);
-      if (coveredByLike(covers, material, edge.length, frame.tolerance))
-        return 0;
       exposedPieces(edge.length, covers, material, frame.tolerance, pieces);
     }
     PiecePoints const points = piecePoints(placement, free);
@@ -321,6 +356,8 @@ struct SegmentFinder
   /// Write all segments of a cell from `first` on, as far as there is room; returns their number.
   KOKKOS_INLINE_FUNCTION int cellSegments(int cell, int first) const
   {
+    if (isHidden(cell))
+      return 0;
     CellFrame const frame = cellFrame(mesh, cell);
     InterfaceSegment const blank = blankSegment(cell, frame);
     int count = regionSegments(frame, blank, first);

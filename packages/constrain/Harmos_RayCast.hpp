@@ -13,6 +13,9 @@ constexpr double facing_cosine = 0.5;
 /// Deepest overlap of bodies on separate meshes that a ray still finds. [cell sizes]
 constexpr double deepest_overlap = 0.25;
 
+/// More than what crossSegment adds at the ends of a segment. [bins]
+constexpr double crossing_slack = 1e-6;
+
 /// What the normal ray of a segment's point meets first.
 struct RayHit
 {
@@ -89,6 +92,20 @@ struct Ray
   }
 };
 
+/// Whether a point lies deeper than `depth` within a cell.
+KOKKOS_INLINE_FUNCTION bool liesWithin(Mesh const &mesh, int cell, Vector2 const &point, double depth)
+{
+  Quadrilateral const q = cellQuadrilateral(mesh, cell);
+  for (int k = 0; k < 4; ++k)
+  {
+    Vector2 const face = q[(k + 1) & 3] - q[k];
+    double const inward = cross(face, point - q[k]);
+    if (!(inward > 0.0 && inward * inward > depth * depth * dot(face, face)))
+      return false;
+  }
+  return true;
+}
+
 /// The normal ray of a segment's point. \param from Segment `number`, or a part of it.
 KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *> const &segment, int count,
                                       SegmentBins const &bins, InterfaceSegment const &from, int number)
@@ -104,6 +121,9 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *>
   for (int to = number + 1; to < count && segment(to).cell == cell; ++to)
     ray.offer(mesh, segment(to), to);
   if (ray.hit.segment >= 0 && ray.nearest <= shared * from.cell_size)
+    return ray.hit;
+  // Nor can other cells hold anything nearer than what lies nearer than they do: thin voids between two bodies.
+  if (ray.hit.segment >= 0 && liesWithin(mesh, cell, from.point, ray.nearest + crossing_slack * bins.size))
     return ray.hit;
   Vector2 low, high;
   ray.box(0.52 * bins.size, low, high); // half the longest segment and a little

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_JoinReducer.hpp>
 #include <Harmos_SegmentBins.hpp>
 
 namespace Harmos
@@ -47,28 +48,37 @@ KOKKOS_INLINE_FUNCTION BinnedSegment binned(SegmentBins const &bins, InterfaceSe
           bins.index(s.midpoint[1])};
 }
 
-} // namespace
+struct MidpointBox
+{
+  Vector2 least{1e300, 1e300}, most{-1e300, -1e300};
+
+  KOKKOS_INLINE_FUNCTION void join(MidpointBox const &other)
+  {
+    for (int d = 0; d < 2; ++d)
+    {
+      least[d] = Math::min(least[d], other.least[d]);
+      most[d] = Math::max(most[d], other.most[d]);
+    }
+  }
+};
 
 /// The rows and columns of bins that hold segments, and with them the numbers of bins or buckets.
 int spread(View<InterfaceSegment *> const &segment, int count, SegmentBins &bins)
 {
   constexpr long long roomy = 64; // bins of the grid for each segment, beyond which it is hashed
-  double least[2] = {0.0, 0.0}, most[2] = {0.0, 0.0};
-  for (int d = 0; d < 2; ++d)
-  {
-    Kokkos::parallel_reduce(
-        "Harmos::constrain::least", RangePolicy(0, count),
-        KOKKOS_LAMBDA(int i, double &l) { l = Math::min(l, segment(i).midpoint[d]); }, Kokkos::Min<double>(least[d]));
-    Kokkos::parallel_reduce(
-        "Harmos::constrain::most", RangePolicy(0, count),
-        KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, segment(i).midpoint[d]); }, Kokkos::Max<double>(most[d]));
-  }
+  MidpointBox box;
+  Kokkos::parallel_reduce(
+      "Harmos::constrain::midpointBox", RangePolicy(0, count),
+      KOKKOS_LAMBDA(int i, MidpointBox &sum) {
+        sum.join({segment(i).midpoint, segment(i).midpoint});
+      },
+      JoinReducer<MidpointBox>(box));
   if (count > 0)
   {
-    bins.first_column = bins.index(least[0]);
-    bins.last_column = bins.index(most[0]);
-    bins.first_row = bins.index(least[1]);
-    bins.last_row = bins.index(most[1]);
+    bins.first_column = bins.index(box.least[0]);
+    bins.last_column = bins.index(box.most[0]);
+    bins.first_row = bins.index(box.least[1]);
+    bins.last_row = bins.index(box.most[1]);
   }
   double const all = (1.0 + bins.last_column - bins.first_column) * (1.0 + bins.last_row - bins.first_row);
   bins.hashed = all > static_cast<double>(roomy * count);
@@ -78,6 +88,8 @@ int spread(View<InterfaceSegment *> const &segment, int count, SegmentBins &bins
   bins.mask = buckets - 1;
   return bins.hashed ? buckets : static_cast<int>(all);
 }
+
+} // namespace
 
 SegmentBins binSegments(InterfaceSegments const &segments, double largest)
 {
