@@ -227,7 +227,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     if (closes || report.failure.fractions_changed)
     {
       PhaseTimer timer("reconstruct", times.reconstruct);
-      reconstructState(scene, s, report.reconstruction);
+      s.regions = refill(mesh, s.pairs, s.state, s.regions, scene.reconstruction, report.reconstruction);
     }
     {
       PhaseTimer timer("remap", times.remap);

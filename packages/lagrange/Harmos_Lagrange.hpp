@@ -198,7 +198,7 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
 ///    it has gone;
 ///  - what is left, and all of it without void, is shared as eps_m ~ 1 / K_m, |eps_m| <= max(0.2, |theta|).
 /// sv and f are scaled by (1 + eps_m) / (1 + theta), so that the update leaves sv (1 + eps_m) and the moved regions
-/// fill f A' = V_m (1 + eps_m): the regions must be reconstructed anew for the remap. Energy: each material does its
+/// fill f A' = V_m (1 + eps_m): the regions must be refilled for the remap. Energy: each material does its
 /// own work, m de += p m sv (theta - eps_m), the sum of which is taken from all alike by mass: the cell's energy is
 /// kept. Benson, Comput. Methods Appl. Mech. Engrg. 99 (1992) 235-394; Kamm, Shashkov, Fung, Harrison & Canfield, Int.
 /// J. Numer. Meth. Fluids (2010), doi 10.1002/fld.2354.
@@ -223,7 +223,7 @@ void keepForFailure(CellMaterialPairs const &pairs, PairState const &state, Lagr
 struct FailureReport
 {
   long long failed = 0;           // owned pairs that failed in this step
-  bool fractions_changed = false; // of some cell on this rank: its regions must be reconstructed before the remap
+  bool fractions_changed = false; // of some cell on this rank: its regions must be refilled before the remap
 };
 
 /// After updatePairs: the damage of the pairs whose law can fail (damageAfter), and what failed pairs do. They have

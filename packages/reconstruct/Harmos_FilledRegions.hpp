@@ -8,12 +8,17 @@ namespace Harmos
 {
 
 /// The filled regions of the mixed cells: one convex polygon for every pair of a mixed cell; pure cells store none.
+///
+/// They were cut off the cell one component after the other. A cell of n pairs has n - 1 cuts, or n with void: entry i
+/// tells which component the i-th took and its normal; an n-th that is none has the normal zero.
 struct FilledRegions
 {
   int num_mixed_cells = 0;
-  View<int *> mixed_cell;   // num_mixed_cells: cell, ascending
-  View<int *> cell_region;  // num_cells: first region of the cell's pairs; -1 where the cell is not mixed
-  View<Region *> polygon;   // by cell_region(cell) + (pair - offset(cell)); counter-clockwise
+  View<int *> mixed_cell;     // num_mixed_cells: cell, ascending
+  View<int *> cell_region;    // num_cells: first region of the cell's pairs; -1 where the cell is not mixed
+  View<Region *> polygon;     // by cell_region(cell) + (pair - offset(cell)); counter-clockwise
+  View<int *> cut_component;  // by cell_region(cell) + cut: pair - offset(cell); the void's is the number of pairs
+  View<Vector2 *> cut_normal; // by the same: unit, leaves what is cut off
 
   /// The filled region of a pair, whatever the kind of its cell.
   KOKKOS_INLINE_FUNCTION Region region(Mesh const &mesh, CellMaterialPairs const &pairs, int pair) const

@@ -33,25 +33,30 @@ struct WeightedSlab
             part * (0.5 * (dw * weight_low + dg * width_low) + part * (dw * dg * (1.0 / 3.0))));
   }
 
-  /// The part below which a volume lies, 0 < volume <= volumeBelow(1): Newton's method, by bisection where it leaves
-  /// the bracket. Ends where the volume is met to round-off or the bracket closed.
+  /// The part below which a volume lies, 0 < volume <= volumeBelow(1): Newton's method from the root of the quadratic
+  /// that leaves out the cubic's last term, by bisection where it leaves the bracket. It ends with a step whose square
+  /// is round-off.
   KOKKOS_INLINE_FUNCTION double partOf(double volume) const
   {
     constexpr int max_iterations = 100;
+    constexpr double last_step = 1e-9; // of the part
+    double const dw = width_high - width_low, dg = weight_high - weight_low;
+    double const start = height * width_low * weight_low, bend = 0.5 * height * (dw * weight_low + dg * width_low);
     double low = 0.0, high = 1.0;
-    double part = volume / volumeBelow(1.0);
+    double part = 2.0 * volume / (start + Math::sqrt(Math::max(0.0, start * start + 4.0 * bend * volume)));
+    if (!(part > low && part < high))
+      part = 0.5;
     for (int i = 0; i < max_iterations; ++i)
     {
       double const excess = volumeBelow(part) - volume;
-      if (Math::fabs(excess) <= 1e-16 * volume)
-        return part;
       (excess > 0.0 ? high : low) = part;
-      double const slope =
-          height * (width_low + part * (width_high - width_low)) * (weight_low + part * (weight_high - weight_low));
+      double const slope = height * (width_low + part * dw) * (weight_low + part * dg);
       double next = slope > 0.0 ? part - excess / slope : 0.5 * (low + high);
+      if (Math::fabs(next - part) <= last_step * part)
+        return Math::clamp(next, 0.0, 1.0);
       if (!(next > low && next < high))
         next = 0.5 * (low + high);
-      if (next == part || next == low || next == high)
+      if (next == low || next == high)
         return next;
       part = next;
     }
@@ -96,7 +101,7 @@ KOKKOS_INLINE_FUNCTION LineCut weightedLineCut(Polygon<Capacity> const &polygon,
   };
   // `right` climbs counter-clockwise, `left` clockwise; both are at or below `level`, the vertices after them above it.
   int right = low, left = low;
-  double level = 0.0, width = 0.0, below = 0.0;
+  double level = 0.0, width = 0.0, below = 0.0, middle = 0.0; // of the chord at `level`
   bool converged = volume >= 0.0;
   for (int step = 0; step < 2 * size; ++step)
   {
@@ -104,15 +109,12 @@ KOKKOS_INLINE_FUNCTION LineCut weightedLineCut(Polygon<Capacity> const &polygon,
     double const top = Math::max(level, Math::min(s[right_next], s[left_next]));
     double const end_left = at(left, left_next, top), end_right = at(right, right_next, top);
     double const width_top = Math::max(0.0, end_left - end_right);
+    double const middle_top = 0.5 * (end_left + end_right);
     Detail::WeightedSlab weighted;
     if (!Uniform)
-    {
-      double const middle = 0.5 * (at(left, left_next, level) + at(right, right_next, level));
-      double const middle_top = 0.5 * (end_left + end_right);
       weighted =
           Detail::WeightedSlab{top - level, width, width_top, weight.at(polygon[low] + level * normal + middle * along),
                                weight.at(polygon[low] + top * normal + middle_top * along)};
-    }
     double const slab = Uniform ? 0.5 * (width + width_top) * (top - level) : weighted.volumeBelow(1.0);
     if (below + slab >= volume || top >= highest)
     {
@@ -131,6 +133,7 @@ KOKKOS_INLINE_FUNCTION LineCut weightedLineCut(Polygon<Capacity> const &polygon,
     below += slab;
     level = top;
     width = width_top;
+    middle = middle_top;
     if (s[right_next] <= level)
       right = right_next;
     if (s[left_next] <= level)

@@ -29,25 +29,37 @@ struct TurningCut
 };
 
 /// With the weight w = w_m + k s along the chord, s from its midpoint: the integrals of w, w s, w s^2 are w_m L,
-/// k L^3 / 12, w_m L^3 / 12.
+/// k L^3 / 12, w_m L^3 / 12. With w = w_b + k x, x from the chord's begin, a triangle 0, a, b of twice the area c has
+/// the integrals c (w_b / 2 + k (a_x + b_x) / 6) of w and
+/// c (w_b (a + b) / 6 + k ((a_x + b_x) (a + b) + a_x a + b_x b) / 24) of w x; the chord's own edges add nothing.
 KOKKOS_INLINE_FUNCTION TurningCut weightedTurningCut(Region const &polygon, Vector2 const &normal, double volume,
                                                      AreaWeight const &weight)
 {
   LineCut const cut = lineCut(polygon, normal, volume, weight);
-  Region const part = partBelow(polygon, cut);
-  AreaWeight const from_begin{weight.at(cut.begin), weight.slope};
-  Moments<1> const m = moments<1>(part, cut.begin, from_begin);
-  TurningCut result{cut.begin, 0.0};
-  if (m.volume() > 0.0)
+  Vector2 const chord = cut.end - cut.begin;
+  double const at_begin = weight.at(cut.begin), k = weight.slope;
+  double sum = 0.0; // six times the volume
+  Vector2 first{0.0, 0.0}, a = chord;
+  for (int i = cut.first;; i = polygon.next(i))
   {
-    Vector2 const chord = cut.end - cut.begin;
-    double const length = norm(chord), cubed = length * length * length * (1.0 / 12.0);
-    double const middle = weight.at(0.5 * (cut.begin + cut.end));
-    double const slope = length > 0.0 ? weight.slope * chord[0] / length : 0.0;
-    double const first = slope * cubed;
-    double const about_middle = middle * cubed - (middle * length > 0.0 ? first * first / (middle * length) : 0.0);
-    result.centroid += m.centroid();
-    result.rate = about_middle / m.volume();
+    Vector2 const b = polygon[i] - cut.begin, both = a + b;
+    double const c = cross(a, b);
+    sum += c * (3.0 * at_begin + k * both[0]);
+    first += c * ((at_begin + 0.25 * k * both[0]) * both + (0.25 * k) * (a[0] * a + b[0] * b));
+    a = b;
+    if (i == cut.last)
+      break;
+  }
+  TurningCut result{cut.begin, 0.0};
+  if (sum > 0.0)
+  {
+    double const length2 = dot(chord, chord), length = Math::sqrt(length2), cubed = length * length2 * (1.0 / 12.0);
+    double const middle = at_begin + 0.5 * k * chord[0];
+    double const moment = length > 0.0 ? k * chord[0] * length2 * (1.0 / 12.0) : 0.0;
+    double const about_middle = middle * cubed - (middle * length > 0.0 ? moment * moment / (middle * length) : 0.0);
+    double const inverse = 1.0 / sum;
+    result.centroid += inverse * first;
+    result.rate = 6.0 * inverse * about_middle;
   }
   return result;
 }

@@ -50,9 +50,32 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
                                                       : bestPlan(field, components, options.sliver);
 }
 
+/// The plan that a cell was cut by; without components where there is none for those that it has now.
+KOKKOS_FUNCTION RemovalPlan formerPlan(CellComponents const &components, FilledRegions const &before, int num_pairs)
+{
+  RemovalPlan plan;
+  int const first = before.cell_region(components.cell);
+  if (first < 0)
+    return plan;
+  bool const had_void = dot(before.cut_normal(first + num_pairs - 1), before.cut_normal(first + num_pairs - 1)) > 0.0;
+  if (num_pairs + (had_void ? 1 : 0) != components.count)
+    return plan;
+  plan.count = components.count;
+  ComponentSet rest = components.all();
+  for (int i = 0; i < num_pairs; ++i)
+  {
+    plan.set(i, before.cut_component(first + i), before.cut_normal(first + i));
+    rest &= ~(1u << plan.component[i]);
+  }
+  for (int k = 0; k < components.count; ++k)
+    if (components.holds(rest, k))
+      plan.set(num_pairs, k, {0.0, 0.0});
+  return plan;
+}
+
 /// Cut the cell as planned, write the materials' regions, and return the largest volume error.
 KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, RemovalPlan const &plan,
-                                        FilledRegions const &regions)
+                                        FilledRegions const &regions, int num_pairs)
 {
   CellStatus status{0.0, false, false, plan.unfinished > 0, -1};
   int const first = regions.cell_region(components.cell);
@@ -74,6 +97,11 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
   };
   Region polygon = components.polygon;
   ComponentSet rest = components.all();
+  for (int i = 0; i < num_pairs; ++i)
+  {
+    regions.cut_component(first + i) = plan.component[i];
+    regions.cut_normal(first + i) = i + 1 < plan.count ? plan.normal[i] : Vector2{0.0, 0.0};
+  }
   for (int i = 0; i + 1 < plan.count; ++i)
   {
     int const k = plan.component[i];
@@ -87,19 +115,31 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
   return status;
 }
 
+/// \param before Not without cells: its cuts are kept where they can be (refill).
 KOKKOS_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, ReconstructionOptions const &options,
-                                           FilledRegions const &regions, int cell)
+                                           FilledRegions const &before, FilledRegions const &regions, int cell)
 {
+  int const num_pairs = field.pairs.offset(cell + 1) - field.pairs.offset(cell);
   if (componentCount(field, cell) > max_components)
   {
-    int const first = regions.cell_region(cell), count = field.pairs.offset(cell + 1) - field.pairs.offset(cell);
-    for (int k = 0; k < count; ++k)
+    int const first = regions.cell_region(cell);
+    for (int k = 0; k < num_pairs; ++k)
+    {
       regions.polygon(first + k) = Region();
+      regions.cut_component(first + k) = k;
+      regions.cut_normal(first + k) = {0.0, 0.0};
+    }
     return {1.0, true, false, false, -1};
   }
   bool const by_moments = options.method == ReconstructionMethod::MomentOfFluid;
   CellComponents const components = cellComponents(field, cell, by_moments);
-  CellStatus status = writeRegions(components, removalPlan(field, components, options), regions);
+  if (before.num_mixed_cells > 0)
+  {
+    RemovalPlan const plan = formerPlan(components, before, num_pairs);
+    if (plan.count > 0)
+      return writeRegions(components, plan, regions, num_pairs);
+  }
+  CellStatus status = writeRegions(components, removalPlan(field, components, options), regions, num_pairs);
   status.greedy = by_moments && options.order.extent(0) == 0 && components.count > max_exhaustive_components;
   return status;
 }
@@ -140,8 +180,12 @@ FilledRegions listMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs)
         count += offset(cell + 1) - offset(cell);
       },
       num_regions);
+  // All are written.
   regions.polygon = View<Region *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::polygon"),
-                                   num_regions); // all are written
+                                   num_regions);
+  regions.cut_component = unset("Harmos::reconstruct::cut_component", num_regions);
+  regions.cut_normal = View<Vector2 *>(
+      Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::cut_normal"), num_regions);
   return regions;
 }
 
@@ -193,21 +237,35 @@ void addReport(Mesh const &mesh, View<int *> const &mixed_cell, View<CellStatus 
     report.largest_volume_error = Math::max(report.largest_volume_error, largest);
 }
 
+FilledRegions cutCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                       FilledRegions const &before, ReconstructionOptions const &options, ReconstructionReport &report)
+{
+  FilledRegions const regions = listMixedCells(mesh, pairs);
+  ReconstructionField const field{mesh, pairs, state.record, state.centroid};
+  View<CellStatus *> const status(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::status"),
+                                  regions.num_mixed_cells);
+  Kokkos::parallel_for(
+      "Harmos::reconstruct::mixedCells", RangePolicy(0, regions.num_mixed_cells), KOKKOS_LAMBDA(int const i) {
+        status(i) = reconstructCell(field, options, before, regions, regions.mixed_cell(i));
+      });
+  addReport(mesh, regions.mixed_cell, status, report);
+  return regions;
+}
+
 } // namespace
 
 FilledRegions reconstruct(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                           ReconstructionOptions const &options, ReconstructionReport &report)
 {
   ScopedRegion const region("Harmos::reconstruct");
-  FilledRegions const regions = listMixedCells(mesh, pairs);
-  ReconstructionField const field{mesh, pairs, state.record, state.centroid};
-  View<CellStatus *> const status(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::status"),
-                                  regions.num_mixed_cells);
-  Kokkos::parallel_for(
-      "Harmos::reconstruct::mixedCells", RangePolicy(0, regions.num_mixed_cells),
-      KOKKOS_LAMBDA(int const i) { status(i) = reconstructCell(field, options, regions, regions.mixed_cell(i)); });
-  addReport(mesh, regions.mixed_cell, status, report);
-  return regions;
+  return cutCells(mesh, pairs, state, {}, options, report);
+}
+
+FilledRegions refill(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                     FilledRegions const &before, ReconstructionOptions const &options, ReconstructionReport &report)
+{
+  ScopedRegion const region("Harmos::reconstruct::refill");
+  return cutCells(mesh, pairs, state, before, options, report);
 }
 
 } // namespace Harmos
