@@ -59,13 +59,12 @@ def test_noh_problem_converges_to_its_plateau():
 
 def test_sod_along_the_axis_is_sod_in_the_plane_in_every_column():
     # Masses lumped by the shape functions: along z the nodes on the axis are driven like all others, and radial fluxes are zero.
-    # At second order the planar tube's columns drift apart by 1e-3 themselves: limiters amplify round-off behind the shock.
     tube = {"mesh/x": "{from: 0.0, to: 0.04, cells: 8}", "mesh/y": "{from: 0.0, to: 1.0, cells: 200}",
             "bodies/left": "{material: gas, shape: rectangle, center: [0.0, 0.25], size: [1.0, 0.5], density: 1.0, pressure: 1.0}",
             "bodies/right": "{material: gas, shape: rectangle, center: [0.0, 0.75], size: [1.0, 0.5], density: 0.125, pressure: 0.1}",
             "output/fields/every_time": 0.0, "run/max_cycles": 150}
     one_field, first_order = {"bodies/right/join": "left"}, {"numerics/remap/order": 1}
-    for name, more, bound in (("first order", {**one_field, **first_order}, 1e-12), ("second order", one_field, 5e-3),
+    for name, more, bound in (("first order", {**one_field, **first_order}, 1e-12), ("second order", one_field, 1e-10),
                               ("two fields in contact, first order", first_order, 1e-9)):
         ring = harmos("shocks/sod.yaml", {"geometry": "axisymmetric", **tube, **more})
         plane = harmos("shocks/sod.yaml", {**tube, **more})

@@ -12,15 +12,19 @@ namespace RemapDetail
 namespace
 {
 
-/// What faces take out of the cells of a block: those through which any leaves, one after the other.
+/// What faces take out of the cells of a block, face by face, of those through which any leaves.
+///
+/// Loops run over the faces' numbers: in one over those at work a face's place would hang on the block's other cells,
+/// so on the ranks, and with it which products the compiler rounds by themselves.
 struct Outflow
 {
-  int count;
-  int number[4];
-  double *face[4]; // its columns
+  int leaves;      // LeaveBit
+  double *face[4]; // columns
   Pack volume[4];
   Pack x[4], y[4]; // swept centroids from the cell's; zero where nothing leaves
   Pack staying, moved_volume;
+
+  KOKKOS_FORCEINLINE_FUNCTION bool takes(int k) const { return (leaves & LeaveBit << k) != 0; }
 };
 
 /// The centroids and fields beyond the faces, column by column as in the window; the cell's own where what is there
@@ -137,62 +141,83 @@ struct SweptFluxFunctor
     return Math::max(part, Pack(0.0));
   }
 
-  /// The part of the gradient that the limiter leaves, and the whole deviations from the mean at the faces.
+  /// The deviations from the mean at the faces.
+  KOKKOS_FORCEINLINE_FUNCTION static void deviate(Field const &f, Outflow const &out, Pack (&deviation)[4])
+  {
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
+      if (out.takes(k))
+        deviation[k] = out.x[k] * f.gradient_x + out.y[k] * f.gradient_y;
+  }
+
+  /// Brings them into range face by face, where the limiter does. \return The part of them that it then leaves.
   KOKKOS_FORCEINLINE_FUNCTION static Pack limit(Field const &f, Beyond const &beyond, Pack const (&p)[4],
                                                 Outflow const &out, Pack const (&weight)[4], Pack const &per_staying,
                                                 Pack (&deviation)[4])
   {
-    for (int i = 0; i < out.count; ++i)
-      deviation[i] = out.x[i] * f.gradient_x + out.y[i] * f.gradient_y;
     if constexpr (limiter == RemapLimiter::None)
       return Pack(1.0);
     else if constexpr (limiter == RemapLimiter::VanLeer)
       return vanLeerPart(f, beyond, p);
     else
-      return rangePart(f, out.count, weight, per_staying, deviation);
+      return keepWithin(f, out, weight, per_staying, deviation);
   }
 
-  /// The largest part of the deviations from the mean at the faces, at most all, that keeps those and the mean of what
-  /// stays within range.
-  KOKKOS_FORCEINLINE_FUNCTION static Pack rangePart(Field const &f, int count, Pack const (&weight)[4],
-                                                    Pack const &per_staying, Pack const (&deviation)[4])
+  /// Brings what leaves through each face into the range by itself. \return The part of all deviations, at most all,
+  /// that then keeps the mean of what stays in it too. So a face counts by what it takes: one that sweeps next to
+  /// nothing, at a corner of the cell, does not bound what the others take (noise would decide where the flow is along
+  /// it).
+  KOKKOS_FORCEINLINE_FUNCTION static Pack keepWithin(Field const &f, Outflow const &out, Pack const (&weight)[4],
+                                                     Pack const &per_staying, Pack (&deviation)[4])
   {
-    Pack low = 0.0, high = 0.0, left = 0.0;
-    for (int i = 0; i < count; ++i)
+    Pack const above = f.upper - f.q, below = f.lower - f.q;
+    Pack left = 0.0;
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
     {
-      low = Math::min(low, deviation[i]);
-      high = Math::max(high, deviation[i]);
-      left -= weight[i] * deviation[i];
+      if (!out.takes(k))
+        continue;
+      deviation[k] = Math::max(below, Math::min(deviation[k], above));
+      left -= weight[k] * deviation[k];
     }
     left = left * per_staying;
-    Pack const most = Math::max(high, left);
-    Pack const drop = -Math::min(low, left);
-    Pack const above = f.upper - f.q;
-    Pack const below = f.q - f.lower;
-    // The lesser of two quotients by one division, without a branch: noise would decide it.
-    auto const up = most > above, down = drop > below;
-    Pack const up_part = select(up, above, Pack(1.0)), up_whole = select(up, most, Pack(1.0));
-    Pack const down_part = select(down, below, Pack(1.0)), down_whole = select(down, drop, Pack(1.0));
-    auto const rising = up_part * down_whole < down_part * up_whole;
-    return select(rising, up_part, down_part) / select(rising, up_whole, down_whole);
+    Pack const bounded = Math::max(below, Math::min(left, above));
+    auto const whole = left == bounded;
+    return select(whole, Pack(1.0), bounded) / select(whole, Pack(1.0), left);
+  }
+
+  /// The part of the gradient that is left in what the faces take, on the whole.
+  KOKKOS_FORCEINLINE_FUNCTION static Pack partLeft(Outflow const &out, Pack const &part, Pack const (&deviation)[4],
+                                                   Pack const (&whole)[4])
+  {
+    Pack left = 0.0, all = 0.0;
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
+    {
+      if (!out.takes(k))
+        continue;
+      left += out.volume[k] * Math::fabs(deviation[k]);
+      all += out.volume[k] * Math::fabs(whole[k]);
+    }
+    auto const some = all > Pack(0.0);
+    return part * (select(some, left, Pack(1.0)) / select(some, all, Pack(1.0)));
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Outflow outflow(int first, int block) const
   {
     Outflow out;
-    out.count = 0;
+    out.leaves = block & all_leave_bits;
     out.moved_volume = out.staying = loadPack(stage.at(MovedVolume, first));
+    HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
-      if ((block & LeaveBit << k) == 0)
+      if (!out.takes(k))
         continue;
-      int const i = out.count++;
-      out.number[i] = k;
-      out.face[i] = stage.at(FaceColumn + num_face_columns * k, first);
-      out.volume[i] = loadPack(out.face[i]);
-      out.x[i] = loadPack(stage.at(OffsetColumn + 2 * k, first));
-      out.y[i] = loadPack(stage.at(OffsetColumn + 2 * k + 1, first));
-      out.staying = out.staying - out.volume[i];
+      out.face[k] = stage.at(FaceColumn + num_face_columns * k, first);
+      out.volume[k] = loadPack(out.face[k]);
+      out.x[k] = loadPack(stage.at(OffsetColumn + 2 * k, first));
+      out.y[k] = loadPack(stage.at(OffsetColumn + 2 * k + 1, first));
+      out.staying = out.staying - out.volume[k];
     }
     return out;
   }
@@ -248,12 +273,15 @@ struct SweptFluxFunctor
                                               Columns const &columns, Outflow const &out, Pack const (&weight)[4],
                                               Pack const &per_staying) const
   {
-    Pack p[4], deviation[4];
+    Pack p[4], deviation[4] = {0.0, 0.0, 0.0, 0.0};
     Field const f = fieldOf(first, field, directions, offset, columns, p);
     Pack const q = f.q;
+    deviate(f, out, deviation);
     Pack const part = limit(f, offset, p, out, weight, per_staying, deviation);
-    for (int i = 0; i < out.count; ++i)
-      storePack(out.face[i] + (1 + field) * column_stride, weight[i] * (q + part * deviation[i]));
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
+      if (out.takes(k))
+        storePack(out.face[k] + (1 + field) * column_stride, weight[k] * (q + part * deviation[k]));
   }
 
   /// From the swept centroids to those of the mass in what is swept, as seen from the cell's: with density rho + g . x a
@@ -279,17 +307,20 @@ struct SweptFluxFunctor
     Pack const per_density = 1.0 / f.q;
     Pack const cell_x = per_density * (along[0] * line_x[0] + along[1] * line_x[1]);
     Pack const cell_y = per_density * (along[0] * line_y[0] + along[1] * line_y[1]);
-    for (int i = 0; i < out.count; ++i)
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
     {
-      int const across = out.number[i] & 1;
-      double const sign = out.number[i] == 1 || out.number[i] == 2 ? 1.0 : -1.0;
-      Pack const x = sign * line_x[across] - 2.0 * out.x[i], y = sign * line_y[across] - 2.0 * out.y[i];
+      if (!out.takes(k))
+        continue;
+      int const across = k & 1;
+      double const sign = k == 1 || k == 2 ? 1.0 : -1.0;
+      Pack const x = sign * line_x[across] - 2.0 * out.x[k], y = sign * line_y[across] - 2.0 * out.y[k];
       Pack const through = x * gx + y * gy;
-      auto const some = mass[i] > Pack(0.0);
-      Pack const per_swept = select(some, Pack(out.volume[i] / select(some, mass[i], Pack(1.0))), Pack(0.0));
-      out.x[i] = select(some, out.x[i] + per_swept * (through * x + along[1 - across] * line_x[1 - across]) - cell_x,
+      auto const some = mass[k] > Pack(0.0);
+      Pack const per_swept = select(some, Pack(out.volume[k] / select(some, mass[k], Pack(1.0))), Pack(0.0));
+      out.x[k] = select(some, out.x[k] + per_swept * (through * x + along[1 - across] * line_x[1 - across]) - cell_x,
                         Pack(0.0));
-      out.y[i] = select(some, out.y[i] + per_swept * (through * y + along[1 - across] * line_y[1 - across]) - cell_y,
+      out.y[k] = select(some, out.y[k] + per_swept * (through * y + along[1 - across] * line_y[1 - across]) - cell_y,
                         Pack(0.0));
     }
   }
@@ -303,7 +334,7 @@ struct SweptFluxFunctor
                                                        Field const &density, Pack const (&density_beyond)[4],
                                                        Pack const (&mass)[4], Pack const &per_mass) const
   {
-    Pack p[4], theta[4], deviation[4];
+    Pack p[4], theta[4], deviation[4] = {0.0, 0.0, 0.0, 0.0};
     Beyond inside = offset;
     inside.at_boundary = false;
     Field f = fieldOf(first, SpecificVolume, directions, inside, columns, p);
@@ -323,19 +354,24 @@ struct SweptFluxFunctor
     Pack part = 1.0;
     if constexpr (limiter == RemapLimiter::VanLeer)
       part = vanLeerPart(t, offset, theta);
-    for (int i = 0; i < out.count; ++i)
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
     {
-      Pack ratio = t.q + part * (out.x[i] * t.gradient_x + out.y[i] * t.gradient_y);
+      if (!out.takes(k))
+        continue;
+      Pack ratio = t.q + part * (out.x[k] * t.gradient_x + out.y[k] * t.gradient_y);
       if constexpr (limiter == RemapLimiter::Range || limiter == RemapLimiter::RangeInside)
         ratio = Math::max(t.lower, Math::min(ratio, t.upper));
-      auto const some = mass[i] > Pack(0.0);
-      deviation[i] = select(some, out.volume[i] * ratio / select(some, mass[i], Pack(1.0)) - f.q, Pack(0.0));
+      auto const some = mass[k] > Pack(0.0);
+      deviation[k] = select(some, out.volume[k] * ratio / select(some, mass[k], Pack(1.0)) - f.q, Pack(0.0));
     }
     Pack left = 1.0;
     if constexpr (limiter == RemapLimiter::Range || limiter == RemapLimiter::RangeInside)
-      left = rangePart(f, out.count, mass, per_mass, deviation);
-    for (int i = 0; i < out.count; ++i)
-      storePack(out.face[i] + (1 + SpecificVolume) * column_stride, mass[i] * (f.q + left * deviation[i]));
+      left = keepWithin(f, out, mass, per_mass, deviation);
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
+      if (out.takes(k))
+        storePack(out.face[k] + (1 + SpecificVolume) * column_stride, mass[k] * (f.q + left * deviation[k]));
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static Beyond offsets(int block, Columns const &columns)
@@ -367,16 +403,26 @@ struct SweptFluxFunctor
     // Where all of a cell leaves, no mean of what stays bounds anything (largestSweptPart).
     auto const remains = out.staying > Pack(0.0);
     Pack const per_volume = select(remains, Pack(1.0 / select(remains, out.staying, Pack(1.0))), Pack(0.0));
-    Pack deviation[4], density[4], mass[4];
+    Pack density[4], whole[4] = {0.0, 0.0, 0.0, 0.0}, deviation[4] = {0.0, 0.0, 0.0, 0.0};
+    Pack mass[4] = {0.0, 0.0, 0.0, 0.0};
     Field const f = fieldOf(first, DensityField, directions, offset, columns, density);
     Pack const rho = f.q;
-    Pack const part = limit(f, offset, density, out, out.volume, per_volume, deviation);
+    deviate(f, out, whole);
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
+      if (out.takes(k))
+        deviation[k] = whole[k];
+    Pack const left = limit(f, offset, density, out, out.volume, per_volume, deviation);
+    Pack const part = partLeft(out, left, deviation, whole);
     Pack staying_mass = out.moved_volume * rho;
-    for (int i = 0; i < out.count; ++i)
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; ++k)
     {
-      mass[i] = out.volume[i] * (rho + part * deviation[i]);
-      storePack(out.face[i] + (1 + DensityField) * column_stride, mass[i]);
-      staying_mass -= mass[i];
+      if (!out.takes(k))
+        continue;
+      mass[k] = out.volume[k] * (rho + left * deviation[k]);
+      storePack(out.face[k] + (1 + DensityField) * column_stride, mass[k]);
+      staying_mass -= mass[k];
     }
 
     // What goes by volume next: the mass fluxes are the end of a long chain, which it hides.

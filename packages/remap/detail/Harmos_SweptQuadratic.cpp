@@ -11,6 +11,10 @@ namespace RemapDetail
 namespace
 {
 
+/// Of the cell: what faces sweep beyond it. Less has a centroid (sweptGeometry), but round-off for corners: it counts as
+/// a point. (Ahead of a wave velocities fade to 1e-100 of its own.)
+constexpr double least_spread_part = 1e-10;
+
 /// A pure cell with all nodes moved, and where stage 1 takes them.
 struct SweptCorners
 {
@@ -214,29 +218,38 @@ struct SweptQuadraticFunctor
             per_density * (s.second[1] * slope[0] + s.second[2] * slope[1])};
   }
 
-  /// The part of the deviations that the limiter leaves. \param staying Volume and mass that stay.
-  KOKKOS_INLINE_FUNCTION FieldPack kept(Donor const &d, double staying_volume, double staying_mass) const
+  /// Limits the deviations: each into the range by itself, then all by one factor so far that the mean of what stays is
+  /// in it too (SweptFluxFunctor::keepWithin). \param staying Volume and mass that stay.
+  KOKKOS_INLINE_FUNCTION void limit(Donor &d, double staying_volume, double staying_mass) const
   {
     RemapLimiter const limiter = stage.limiter;
     if (limiter == RemapLimiter::None)
-      return FieldPack(1.0);
+      return;
     if (limiter == RemapLimiter::VanLeer)
-      return vanLeer(d);
-    PolynomialFinder::Deviations bounds;
+    {
+      FieldPack part = vanLeer(d);
+      part.set<SpecificVolume>(1.0); // boundSpecificVolume's deviations hold it already
+      for (int k = 0; k < 4; ++k)
+        d.deviation[k] = part * d.deviation[k];
+      return;
+    }
+    FieldPack const above = d.upper - d.q, below = d.lower - d.q;
     FieldPack left(0.0);
     for (int k = 0; k < 4; ++k)
     {
-      bounds.add(d.deviation[k]);
+      d.deviation[k] = greater(below, lesser(d.deviation[k], above));
       left -= fieldWeights(d.swept_volume[k], d.swept_mass[k]) * d.deviation[k];
     }
     // Where all of a cell leaves, no mean of what stays bounds anything (largestSweptPart).
-    bounds.add(left * fieldWeights(staying_volume > 0.0 ? 1.0 / staying_volume : 0.0,
-                                   staying_mass > 0.0 ? 1.0 / staying_mass : 0.0));
-    FieldPack part;
+    left = left * fieldWeights(staying_volume > 0.0 ? 1.0 / staying_volume : 0.0,
+                               staying_mass > 0.0 ? 1.0 / staying_mass : 0.0);
     for (int p = 0; p < FieldPack::parts; ++p)
-      part.part[p] =
-          partWithin<Pack>(bounds.least.part[p], bounds.most.part[p], d.q.part[p], d.lower.part[p], d.upper.part[p]);
-    return part;
+    {
+      Pack const least = Math::min(left.part[p], Pack(0.0)), most = Math::max(left.part[p], Pack(0.0));
+      Pack const part = partWithin<Pack>(least, most, d.q.part[p], d.lower.part[p], d.upper.part[p]);
+      for (int k = 0; k < 4; ++k)
+        d.deviation[k].part[p] = part * d.deviation[k].part[p];
+    }
   }
 
   /// The specific volume in place of its ratio: deviations of what is swept, value and range.
@@ -303,31 +316,39 @@ struct SweptQuadraticFunctor
       d.swept_mass[k] = 0.0;
       staying_volume -= d.swept_volume[k];
       Vector2 const offset{*stage.at(OffsetColumn + 2 * k, cell), *stage.at(OffsetColumn + 2 * k + 1, cell)};
-      if (d.swept_volume[k] > 0.0)
+      if (!(d.swept_volume[k] > least_spread_part * d.volume))
+        d.swept[k] = {d.spread.centroid + offset, {0.0, 0.0, 0.0}};
+      else
         d.swept[k] = spreadOfSwept(corners, k, stage.geometry, d.swept_volume[k], d.spread.centroid + offset);
     }
     fit(d);
 
     // Density first: it gives the mass fluxes that weigh the primitives.
     deviate(d, {0.0, 0.0}, false);
-    double const part = kept(d, staying_volume, 0.0)[DensityField];
-    double staying_mass = d.volume * d.density, ratio[4];
+    double staying_mass = d.volume * d.density, ratio[4], whole[4];
     for (int k = 0; k < 4; ++k)
     {
       ratio[k] = d.deviation[k][SpecificVolume];
-      d.swept_mass[k] = d.swept_volume[k] * (d.density + part * d.deviation[k][DensityField]);
+      whole[k] = d.deviation[k][DensityField];
+    }
+    limit(d, staying_volume, 0.0);
+    double left = 0.0, all = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      left += d.swept_volume[k] * Math::fabs(d.deviation[k][DensityField]);
+      all += d.swept_volume[k] * Math::fabs(whole[k]);
+      d.swept_mass[k] = d.swept_volume[k] * (d.density + d.deviation[k][DensityField]);
       staying_mass -= d.swept_mass[k];
     }
+    double const part = all > 0.0 ? left / all : 1.0; // of the slope, on the whole
     deviate(d, part * Vector2{d.coefficient[0][DensityField], d.coefficient[1][DensityField]}, true);
     boundSpecificVolume(d, ratio);
-    FieldPack all = kept(d, staying_volume, staying_mass);
-    if (stage.limiter == RemapLimiter::VanLeer) // its deviations hold it already
-      all.set<SpecificVolume>(1.0);
+    limit(d, staying_volume, staying_mass);
     for (int k = 0; k < 4; ++k)
     {
       if (!(d.swept_volume[k] > 0.0))
         continue;
-      FieldPack flux = fieldWeights(d.swept_volume[k], d.swept_mass[k]) * (d.q + all * d.deviation[k]);
+      FieldPack flux = fieldWeights(d.swept_volume[k], d.swept_mass[k]) * (d.q + d.deviation[k]);
       flux.set<DensityField>(d.swept_mass[k]);
       storeFlux(cell, k, flux);
     }

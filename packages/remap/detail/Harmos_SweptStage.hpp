@@ -212,16 +212,16 @@ void sweptGeometry(SweptStage const &stage, int begin, int end);
 /// Fluxes of the faces through which cells lose material: a limited linear polynomial per cell at the swept centroids.
 /// Density and deviator are weighted by volume; the primitives by mass, with the face's mass flux.
 ///
-/// One scalar limiter a field and cell keeps the values at all outgoing faces, and the mean of what stays in the cell,
-/// within the range of the cell and its face neighbours: so the new values are means of values within range
-/// (RemapLimiter::Range; RangeInside goes on to
-/// mirrored values at the boundary of the mesh; the others bound what their names say).
+/// What each face takes is brought into the range of the cell and its face neighbours by itself, then all deviations
+/// from the cell's mean by one factor so far that the mean of what stays is within it too: so the new values are means
+/// of values within range, and a face bounds the others by no more than what it takes (RemapLimiter::Range; RangeInside
+/// goes on to mirrored values at the boundary of the mesh; the others bound what their names say).
 void sweptFluxes(SweptStage const &stage, int begin, int end);
 
 /// The moved cells' spreads, and fluxes of limited quadratics: fitted over the vertex neighbours of the same material,
 /// without the derivatives that those do not determine (QuadraticFit), integrated over the swept areas exactly by
-/// volume; by mass to third order: the mass centroid of a part with covariance C is C grad rho / rho from its own. One
-/// factor a field and cell limits as sweptFluxes does, to the range of the vertex neighbours.
+/// volume; by mass to third order: the mass centroid of a part with covariance C is C grad rho / rho from its own.
+/// Limited as in sweptFluxes, to the range of the vertex neighbours.
 void sweptSpread(SweptStage const &stage, int begin, int end);
 void sweptQuadraticFluxes(SweptStage const &stage, int begin, int end);
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 using namespace Harmos;
 using namespace Harmos::Test;
 
@@ -45,6 +47,12 @@ Vector2 randomVelocity(int, Vector2 const &x)
   std::uniform_real_distribution<double> component(-0.01, 0.01);
   double const u = component(random);
   return {u, component(random)};
+}
+
+/// A front across x, so that limiters work on both of its sides.
+double front(int, Vector2 const &x)
+{
+  return 0.1 + 1.0 / (1.0 + std::exp(40.0 * (x[0] - 0.45)));
 }
 
 /// Integrals of the density and of density times energy over a quadrilateral, by 4 x 4 Gauss points.
@@ -169,4 +177,41 @@ TEST(Swept, linearDensityAndEnergy_energyComesFromWhereTheMassIs)
   double const coarse = errorOfEnergy(16), fine = errorOfEnergy(32);
   EXPECT_GT(coarse, 3.9 * fine);
   EXPECT_LT(fine, 1e-7); // 9e-7 with the deviations at the centroids of volume
+}
+
+TEST(Swept, facesThatTakeNextToNothing_doNotBoundWhatTheOthersTake)
+{
+  for (bool about_axis : {false, true})
+    for (int order : {2, 3})
+    {
+      std::vector<std::array<double, num_pair_fields>> plane;
+      // 1e-120: velocities ahead of a wave, whose products with themselves are still numbers
+      for (double across : {0.0, 1e-12, 1e-20, 1e-60, 1e-120})
+      {
+        Scene scene(24, 12, 0.0, twoLaws());
+        if (about_axis)
+          scene.aboutAxis();
+        scene.options.order = order;
+        scene.paint({rest(0)}, front, front);
+        scene.move(
+            [&](int m, Vector2 const &x)
+            {
+              double const noise = x[1] > 0.0 && x[1] < 1.0 ? 100.0 * across * randomVelocity(m, x)[0] : 0.0;
+              return Vector2{0.02 * std::sin(Math::pi * x[0]), noise};
+            });
+        RemapResult const result = scene.remapped();
+        for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+          for (int f = 0; f < num_pair_fields; ++f)
+          {
+            if (across == 0.0 && f == 0)
+              plane.emplace_back();
+            double const value = result.state.record(pair, f);
+            if (across == 0.0)
+              plane[pair][f] = value;
+            else
+              EXPECT_NEAR(value, plane[pair][f], 1e-9)
+                  << "order " << order << ", cell " << pair << ", field " << f << ", across " << across;
+          }
+      }
+    }
 }
