@@ -75,20 +75,14 @@ struct AccumulateFunctor
     return FieldPack(corner);
   }
 
-  /// Add mass-weighted integrals of a donor of `cell`, whose corners are `rotation` ahead of the acceptor's.
-  KOKKOS_INLINE_FUNCTION void add(int candidate, double const *part, int cell, int acceptor, int rotation) const
+  /// Add integrals of a donor of `cell`, whose corners are `rotation` ahead of the acceptor's.
+  KOKKOS_INLINE_FUNCTION void addOverlay(int candidate, double const *part, int cell, int acceptor, int rotation) const
   {
     double *sum = &acceptors.sum(candidate, 0);
     StageFields total = loadStageFields(sum);
     total += {FieldPack(part), cornersOf(part, cell, acceptor, rotation)};
     total.store(sum);
-  }
-
-  KOKKOS_INLINE_FUNCTION void addOverlay(int candidate, double const *part, int cell, int acceptor, int rotation) const
-  {
-    add(candidate, part, cell, acceptor, rotation);
-    double *sum = &acceptors.sum(candidate, VolumeSum);
-    (FieldPack(sum) + FieldPack(part + VolumeSum)).store(sum);
+    (FieldPack(sum + VolumeSum) + FieldPack(part + VolumeSum)).store(sum + VolumeSum);
   }
 
   KOKKOS_INLINE_FUNCTION bool flowsIn(int cell, int acceptor, int face, Boundary &boundary, Moments<1> &m) const
@@ -100,41 +94,10 @@ struct AccumulateFunctor
     return m.volume() > least_overlay * in.mesh.cell_volume(acceptor);
   }
 
-  /// Whether a deformable material gets into a cell by an overlay or an inflow.
-  KOKKOS_INLINE_FUNCTION bool reaches(int acceptor, int material) const
-  {
-    bool const inflow = (classes.openAround(acceptor) & InflowBit) != 0;
-    bool any = false;
-    forCellAndNeighbours(in.mesh, in.links, acceptor,
-                         [&](int cell, int slot, int)
-                         {
-                           int const index = classes.interface_index(cell);
-                           if (index < 0)
-                             return;
-                           int const donor = donors.find(index, material);
-                           any = any || (donor >= 0 && (donors.head(donor).overlaps >> slot & 1ull) != 0);
-                           Boundary boundary;
-                           Moments<1> m;
-                           for (int face = 0; inflow && face < 4; ++face)
-                             any = any || (flowsIn(cell, acceptor, face, boundary, m) && boundary.material == material);
-                         });
-    return any;
-  }
-
-  /// The donor's residue goes to its own cell where that gets the material, to the largest overlay's elsewhere.
-  KOKKOS_INLINE_FUNCTION bool takesResidue(DonorHead const &head, int cell, int slot) const
-  {
-    if (head.residue_slot < 0 || (slot != 0 && slot != head.residue_slot))
-      return false;
-    bool const at_home = (head.overlaps & 1ull) != 0 || reaches(cell, head.material);
-    return at_home ? slot == 0 : slot == head.residue_slot;
-  }
-
   /// What a donor of `cell`, in which the acceptor has the slot, gives the acceptor.
   struct Part
   {
     int donor, cell, slot, rotation;
-    bool overlaps, residue;
   };
 
   /// Parts that wait to be added, in their order.
@@ -154,10 +117,7 @@ struct AccumulateFunctor
       int const candidate = candidateOf(row, donors.head(p.donor).material);
       if (candidate < 0)
         continue;
-      if (p.overlaps)
-        addOverlay(candidate, overlays.row(p.donor, p.slot), p.cell, acceptor, p.rotation);
-      if (p.residue)
-        add(candidate, &overlays.residue(p.donor, 0), p.cell, acceptor, p.rotation);
+      addOverlay(candidate, overlays.row(p.donor, p.slot), p.cell, acceptor, p.rotation);
     }
     parts.count = 0;
   }
@@ -212,13 +172,10 @@ struct AccumulateFunctor
                              DonorHead const &head = donors.head(donor);
                              verbatim =
                                  verbatim && (head.kind == QuietDonor || (head.kind == RigidDonor && cell != acceptor));
-                             bool const overlaps = (head.overlaps >> slot & 1ull) != 0;
-                             bool const residue = takesResidue(head, cell, slot);
-                             if (!overlaps && !residue)
+                             if ((head.overlaps >> slot & 1ull) == 0)
                                continue;
-                             if (overlaps)
-                               overlays.fetch<false>(donor, slot);
-                             parts.part[parts.count++] = {donor, cell, slot, rotation, overlaps, residue};
+                             overlays.fetch<false>(donor, slot);
+                             parts.part[parts.count++] = {donor, cell, slot, rotation};
                              if (parts.count == Parts::room)
                                addParts(row, parts);
                            }

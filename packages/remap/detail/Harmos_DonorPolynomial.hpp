@@ -346,6 +346,7 @@ struct PolynomialFinder
   }
 
   /// The gradient of a donor of mean q, not yet limited; the range g starts with its values before and after stage 1.
+  /// It does not reach down to round-off of the donor's density, the mass of whose parts would have either sign.
   /// \return Its mean before stage 1: differences of corner velocities are taken between like times.
   KOKKOS_INLINE_FUNCTION StageFields donorGradient(int donor, int cell, StageFields const &q, Gradient &g,
                                                    FaceNeighbours &beyond) const
@@ -357,6 +358,7 @@ struct PolynomialFinder
     for (int k = 0; in.ranges.extent(0) > 0 && k < 4; ++k)
       if (in.mesh.face_neighbour(cell, k) < 0)
         widenBeyond(cell, (k + 2) % 4, donors.head(donor).material, before, g);
+    g.lower.record.set<DensityField>(Math::max(g.lower.record[DensityField], least_part * q.record[DensityField]));
     return before;
   }
 

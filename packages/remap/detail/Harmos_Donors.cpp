@@ -227,7 +227,7 @@ struct MoveFunctor
     {
       int const pair = in.pairs.offset(cell) + donor - donors.offset(index);
       int const material = in.pairs.material(pair);
-      donors.head(donor) = {pair, material, RigidDonor, -1, 0ull};
+      donors.head(donor) = {pair, material, RigidDonor, 0ull};
       if (in.isRigid(material))
         continue;
       donors.head(donor).kind = move(donor, cell, pair);

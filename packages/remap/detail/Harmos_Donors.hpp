@@ -37,7 +37,6 @@ struct DonorHead
   int pair;
   int material;
   int kind;                    // DonorKind
-  int residue_slot;            // of the largest overlay; -1: the donor has no residue
   unsigned long long overlaps; // bit s: an overlay with the cell of slot s (NeighbourLinks)
 };
 

@@ -81,12 +81,12 @@ struct DonorAtWork
   Vector2 centroid;
   Polynomial polynomial;
   unsigned long long overlaps;
-  // what is left of it, and the largest overlay
+  // what is left of it, and the heaviest overlay
   StageFields rest;
   double rest_volume;
   Vector2 rest_first; // about the centroid
-  double largest;
-  int largest_slot;
+  double heaviest;
+  int heaviest_slot;
 };
 
 /// Cells whose overlays with a donor are found at once.
@@ -131,11 +131,12 @@ struct IntersectFunctor : Finder
     d.rest -= part;
     d.rest_volume -= m.volume();
     d.rest_first -= Vector2{m.first(0), m.first(1)};
+    bool const first = d.overlaps == 0;
     d.overlaps |= 1ull << slot;
-    if (m.volume() > d.largest)
+    if (first || part.record[DensityField] > d.heaviest)
     {
-      d.largest = m.volume();
-      d.largest_slot = slot;
+      d.heaviest = part.record[DensityField];
+      d.heaviest_slot = slot;
     }
     Vector2 const shift = d.centroid - acceptorOrigin(in.mesh, acceptor);
     double *row = overlays.row(d.number, slot);
@@ -156,8 +157,8 @@ struct IntersectFunctor : Finder
     d.rest.corner = d.polynomial.mean.corner * FieldPack(d.mass);
     d.rest_volume = d.volume;
     d.rest_first = {0.0, 0.0};
-    d.largest = 0.0;
-    d.largest_slot = 0;
+    d.heaviest = 0.0;
+    d.heaviest_slot = 0;
   }
 
   /// A whole donor lies in its own cell.
@@ -285,8 +286,8 @@ struct IntersectFunctor : Finder
     }
   }
 
-  /// Where the rest goes: through an outflow boundary, or to an acceptor (DonorHead::residue_slot).
-  KOKKOS_INLINE_FUNCTION int placeRest(int index, Donor &d, int open) const
+  /// The rest goes through an outflow boundary, or with the heaviest overlay.
+  KOKKOS_INLINE_FUNCTION void placeRest(int index, Donor &d, int open) const
   {
     double const whole = in.mesh.cell_volume(d.cell);
     double const scale = d.rest_volume != 0.0 ? 1.0 / d.rest_volume : 0.0;
@@ -297,7 +298,7 @@ struct IntersectFunctor : Finder
     {
       if (owned)
         bookOutflow(index, d.cell, d.rest);
-      return -1;
+      return;
     }
     double const tolerance = 1e-10 * d.volume + 1e-14 * whole;
     if (owned && Math::fabs(d.rest_volume) > tolerance && (open & (OutflowBit | ContactBit)) == 0 &&
@@ -310,8 +311,10 @@ struct IntersectFunctor : Finder
     d.rest.record.template set<DeviatorXX>(0.0);
     d.rest.record.template set<DeviatorYY>(0.0);
     d.rest.record.template set<DeviatorXY>(0.0);
-    d.rest.store(&overlays.residue(d.number, 0));
-    return d.largest_slot;
+    double *const row = overlays.row(d.number, d.heaviest_slot);
+    StageFields heaviest = loadStageFields(row);
+    heaviest += d.rest;
+    heaviest.store(row);
   }
 
   KOKKOS_INLINE_FUNCTION void remapDonor(int index, int cell, int number, int open) const
@@ -354,7 +357,7 @@ struct IntersectFunctor : Finder
       takeWhole(d);
     }
     head.overlaps = d.overlaps;
-    head.residue_slot = placeRest(index, d, open);
+    placeRest(index, d, open);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int index) const
@@ -375,7 +378,6 @@ void intersect(Input const &in, Classes const &classes, StageState const &stage,
 {
   overlays.slots = in.links.slots;
   grow(overlays.sum, "overlaySum", static_cast<std::size_t>(overlays.slots) * donors.num);
-  grow(overlays.residue, "residue", donors.num);
   PolynomialFinder const finder{in, classes, stage, donors};
   RangePolicy const range(0, classes.num_interface);
   bool const rings = in.mesh.geometry == Geometry::Axisymmetric;

@@ -9,7 +9,7 @@ namespace Harmos
 namespace RemapDetail
 {
 
-/// Overlays below this part of the acceptor are dropped; their mass stays in the donor's residue.
+/// Overlays below this part of the acceptor are dropped; their mass is in the donor's rest.
 constexpr double least_overlay = 1e-15;
 
 /// What an overlay brings, and a candidate collects: integrals of the stage fields (the density's: mass; primitives and
@@ -23,12 +23,11 @@ enum OverlaySum : int
   num_overlay_sums = num_stage_fields + 8 // the rest is zero: rows of whole packs
 };
 
-/// Integrals of the overlays of the donors' acceptors, and what remains of the donors.
+/// Integrals of the overlays of the donors' acceptors.
 struct Overlays
 {
-  int slots = 1;                            // per donor
-  View<double *[num_overlay_sums]> sum;     // slots * donor + slot, where the donor has the overlay
-  View<double *[num_stage_fields]> residue; // donors: what the overlays do not hold, no deviator
+  int slots = 1;                        // per donor
+  View<double *[num_overlay_sums]> sum; // slots * donor + slot, where the donor has the overlay
 
   KOKKOS_INLINE_FUNCTION double *row(int donor, int slot) const
   {
@@ -96,6 +95,10 @@ KOKKOS_INLINE_FUNCTION void forCellAndNeighbours(Mesh const &mesh, NeighbourLink
 
 /// Intersect every moving donor with its own cell and the vertex neighbours, and integrate its polynomial there. Whole
 /// donors overlap their own cell alone.
+///
+/// What the overlays do not hold of a donor, round-off or what a contact wall pushes back, goes with its heaviest one:
+/// it is little beside that alone. Another may hold next to no mass, whatever its volume (where the range of the
+/// density goes down to that of dust), and the acceptor would get round-off of either sign for its mass.
 ///
 /// What leaves through outflow boundaries, and donors whose overlays do not add up, are booked: bookings of all
 /// interface cells are set.

@@ -238,6 +238,38 @@ TEST(Bounds, randomDensityAndPrimitives_stayWithinTheirRange)
   }
 }
 
+/// A thin strip across many cells, of densities that span sixteen decades: a donor may give the cell that gets most of
+/// its volume next to none of its mass, and what rounding leaves of that mass (1e-11 of it) must not go there.
+TEST(Bounds, stripOfDustAndMetal_leavesPositiveMasses)
+{
+  for (int order : {2, 3})
+    for (Geometry geometry : {Geometry::Planar, Geometry::Axisymmetric})
+      for (int seed = 0; seed < 200; ++seed)
+      {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> uniform(0.0, 1.0);
+        Scene scene(9, 9, 0.0, twoLaws());
+        if (geometry == Geometry::Axisymmetric)
+          scene.aboutAxis();
+        scene.options.order = order;
+        scene.options.merge_below = 0.0;
+        double const angle = 2.0 * Math::pi * uniform(random);
+        Vector2 const point{0.3 + 0.4 * uniform(random), 0.3 + 0.4 * uniform(random)};
+        Vector2 const edge = point + 1e-5 * Vector2{std::cos(angle), std::sin(angle)};
+        auto const dust = [&](int, Vector2 const &) { return std::pow(10.0, -16.0 * uniform(random)); };
+        scene.paint({halfPlane(-1, point, angle), halfPlane(0, edge, angle)}, dust,
+                    [](int, Vector2 const &) { return 1.0; });
+        Vector2 const drift{0.1 * (uniform(random) - 0.5), 0.1 * (uniform(random) - 0.5)};
+        scene.move([&](int, Vector2 const &) { return drift; });
+        RemapResult const result = scene.remapped();
+        for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
+        {
+          EXPECT_GT(result.state.record(pair, Mass), 0.0) << order << " " << seed;
+          EXPECT_NEAR(result.state.record(pair, InternalEnergy), 1.0, 1e-3) << order << " " << seed;
+        }
+      }
+}
+
 /// Part of the kinetic energy of a disc in solid rotation that a remap takes, for each cell that its rim travels.
 double spinningLoss(int n)
 {
