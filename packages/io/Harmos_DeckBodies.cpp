@@ -116,11 +116,16 @@ void convertBlock(DeckChecker const &check, ParameterList const &list, std::stri
     }
   }
   convertBlockSides(check, list, path, deck, body);
+  bool const fitted = deck.kinematics == Kinematics::Lagrangian;
+  std::string const no_block = "a body of another kinematics than lagrangian is painted onto the cells of mesh";
+  check.require(fitted || !list.isParameter("cells"), keyPath(path, "cells"), no_block);
+  check.require(fitted || (body.cells_grading[0] == 1.0 && body.cells_grading[1] == 1.0),
+                keyPath(path, "cells_grading"), no_block);
   bool const part = body.shape.kind == ShapeKind::MeshPart;
-  check.require(!part || (deck.kinematics == Kinematics::Lagrangian && !deck.mesh_file.empty()), keyPath(path, "shape"),
+  check.require(!part || (fitted && !deck.mesh_file.empty()), keyPath(path, "shape"),
                 "a mesh part needs kinematics lagrangian and mesh/file");
   check.require(!part || !list.isParameter("cells"), keyPath(path, "cells"), "a mesh part has its cells in the file");
-  if (deck.kinematics != Kinematics::Lagrangian || part)
+  if (!fitted || part)
     return;
   std::vector<Vector2> const corners = outlinePoints(body.shape);
   check.require(corners.size() == 4, keyPath(path, "shape"),

@@ -158,9 +158,9 @@ void addBodies(ParameterList &bodies)
       "of a rigid body. fixed: at rest; prescribed: keeps its velocities; free: follows from impulse and torque");
   add(list, "cells", Teuchos::Array<double>(Teuchos::tuple(1.0, 1.0)),
       optional(numbers(2, 2, "", {1.0, 1e6, false, false}), "from the size of the mesh's cells"),
-      "lagrangian: cells of the block along its first and second side");
+      "lagrangian only: cells of the block along its first and second side");
   add(list, "cells_grading", pair(1.0, 1.0), numbers(2, 2, "", positive),
-      "lagrangian: size of the last cell over the first along the same sides");
+      "lagrangian only: size of the last cell over the first along the same sides");
   add(list, "arc_radii", Teuchos::Array<double>(4, 0.0), optional(numbers(4, 4, "m"), "straight"),
       "lagrangian: the block's sides as arcs with these radii; 0: straight, positive: bulging outwards");
 }

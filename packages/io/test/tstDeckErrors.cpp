@@ -219,6 +219,10 @@ TEST(DeckErrors, Lagrangian_takesConvexBlocksWithoutInflow)
              "bodies: 800000000 cells in all, more than 32-bit face numbers reach; expected: at most 536870911");
   EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[40, 1]", "bodies/a/cells_grading=[1e20, 1]"}),
              "bodies/a/cells_grading: 1e+20 makes cells of no size");
+  for (char const *key : {"cells", "cells_grading"})
+    EXPECT_HAS(messageOfText(block, {"kinematics=xfem", std::string("bodies/a/") + key + "=[4, 2]"}),
+               std::string("bodies/a/") + key + ": a body of another kinematics than lagrangian is painted");
+  EXPECT_EQ(messageOfText(block, {"kinematics=xfem", "bodies/a/cells_grading=[1, 1]"}), "accepted");
   EXPECT_HAS(messageOfText(head + "    a: {material: m, shape: disc, center: [1, 0.5], radius: 1}\n"),
              "bodies/a/shape: kinematics lagrangian meshes blocks");
   EXPECT_HAS(messageOfText(head + "    a: {material: m, shape: polygon, points: [0,0, 1,0, 0.2,0.2, 0,1]}\n"),
