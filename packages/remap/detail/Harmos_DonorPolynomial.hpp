@@ -35,13 +35,22 @@ struct CornerShift
 struct DonorPolynomial
 {
   StageFields mean, x, y; // mean, gradient
+  Vector2 slope;          // of the density, by which masses are placed
   Vector2 mass_offset;    // e
   CornerShift shift;
+
+  // The limiter's, where it is one of range. Each overlay's deviation from the mean is brought between `least` and
+  // `most` by itself; `part` of it is left, so far that the largest overlay, which takes what the others leave, is
+  // within range too. So an overlay counts by what it takes (SweptFluxFunctor::keepWithin).
+  bool to_range;
+  StageFields least, most, part;
+  StageFields of_largest; // its deviation
 };
 
 KOKKOS_INLINE_FUNCTION DonorPolynomial constantPolynomial(StageFields const &mean)
 {
-  return {mean, stageFields(0.0), stageFields(0.0), {0.0, 0.0}, {{0.0, 0.0}, 0.0}};
+  StageFields const zero = stageFields(0.0);
+  return {mean, zero, zero, {0.0, 0.0}, {0.0, 0.0}, {{0.0, 0.0}, 0.0}, false, zero, zero, zero, zero};
 }
 
 /// Vertices relative to the donor's centroid.
@@ -71,7 +80,7 @@ struct LinearWeights
 };
 
 /// Finds polynomials: gradients from least squares over the same-material pairs of the vertex neighbours, limited
-/// in the mean of every overlay to their range.
+/// in the mean of every overlay to their range (DonorPolynomial).
 ///
 /// Gradients of the corner velocities come from velocities before stage 1, so that they need no wider halo.
 struct PolynomialFinder
@@ -113,19 +122,41 @@ struct PolynomialFinder
     return w;
   }
 
+  /// Deviations of the means over a part from the donor's, before any limiter.
+  KOKKOS_INLINE_FUNCTION static StageFields deviations(Polynomial const &p, LinearWeights const &w, bool largest)
+  {
+    double const per_volume = 1.0 / w.volume, per_mass = 1.0 / w.mass;
+    Vector2 const v = per_volume * w.by_volume, m = per_mass * w.by_mass;
+    Vector2 const c = m + per_mass * p.shift.moment(w.mass, largest);
+    return {p.x.record * fieldWeights(v[0], m[0]) + p.y.record * fieldWeights(v[1], m[1]),
+            p.x.corner * FieldPack(c[0]) + p.y.corner * FieldPack(c[1])};
+  }
+
+  /// Of a part that is not the largest, each within range.
+  KOKKOS_INLINE_FUNCTION static StageFields boundedDeviations(Polynomial const &p, LinearWeights const &w)
+  {
+    StageFields const d = deviations(p, w, false);
+    return {greater(p.least.record, lesser(d.record, p.most.record)),
+            greater(p.least.corner, lesser(d.corner, p.most.corner))};
+  }
+
   /// Integrals of the donor's fields over one overlay: density and deviator by volume, primitives phi as rho phi.
   KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m, bool largest)
   {
-    LinearWeights const w =
-        weights(p.mean.record[DensityField], {p.x.record[DensityField], p.y.record[DensityField]}, p.mass_offset, m);
-    StageFields out;
-    out.record =
-        p.mean.record * fieldWeights(w.volume, w.mass) + (p.x.record * fieldWeights(w.by_volume[0], w.by_mass[0]) +
-                                                          p.y.record * fieldWeights(w.by_volume[1], w.by_mass[1]));
-    Vector2 const by_corner = w.by_mass + p.shift.moment(w.mass, largest);
-    out.corner = p.mean.corner * FieldPack(w.mass) +
-                 (p.x.corner * FieldPack(by_corner[0]) + p.y.corner * FieldPack(by_corner[1]));
-    return out;
+    LinearWeights const w = weights(p.mean.record[DensityField], p.slope, p.mass_offset, m);
+    StageFields d;
+    if (!p.to_range)
+      d = deviations(p, w, largest);
+    else if (largest)
+      d = p.of_largest;
+    else
+    {
+      d = boundedDeviations(p, w);
+      d.record *= p.part.record;
+      d.corner *= p.part.corner;
+    }
+    double const mass = w.volume * (p.mean.record[DensityField] + d.record[DensityField]);
+    return {(p.mean.record + d.record) * fieldWeights(w.volume, mass), (p.mean.corner + d.corner) * FieldPack(mass)};
   }
 
   struct Gradient
@@ -298,51 +329,72 @@ struct PolynomialFinder
     }
   };
 
-  /// Scale the gradient of eight fields so that the deviations, which it is proportional to, stay within range.
-  KOKKOS_INLINE_FUNCTION static void limit(Deviations const &d, FieldPack const &q, FieldPack const &lower,
-                                           FieldPack const &upper, FieldPack &gx, FieldPack &gy)
+  /// What of the density's deviations the limiter leaves: the factor of all, and of what the parts take on the whole.
+  struct DensityParts
   {
-    for (int p = 0; p < FieldPack::parts; ++p)
-    {
-      Pack const a = partWithin<Pack>(d.least.part[p], d.most.part[p], q.part[p], lower.part[p], upper.part[p]);
-      gx.part[p] = a * gx.part[p];
-      gy.part[p] = a * gy.part[p];
-    }
-  }
+    double part, slope;
+  };
 
-  /// The part of a density's gradient that keeps the means of all parts within range.
-  KOKKOS_INLINE_FUNCTION static double densityPart(OverlayList<OverlayMoments> const &overlays, double rho,
-                                                   Vector2 const &g, double lower, double upper)
+  KOKKOS_INLINE_FUNCTION static DensityParts densityParts(OverlayList<OverlayMoments> const &overlays, double rho,
+                                                          Vector2 const &g, double lower, double upper)
   {
-    double least = 0.0, most = 0.0;
-    for (int o = 0; o < overlays.parts(); ++o)
-    {
-      OverlayMoments const m = overlays.fieldMoments(o);
-      double const deviation = (g[0] * m.first(0) + g[1] * m.first(1)) / m.volume();
-      least = Math::min(least, deviation);
-      most = Math::max(most, deviation);
-    }
-    return partWithin<double>(least, most, rho, lower, upper);
-  }
-
-  /// Limit the gradients of all fields but the density, which is rho + g.d with the mass centroid at e.
-  KOKKOS_INLINE_FUNCTION static void limitToRange(OverlayList<OverlayMoments> const &overlays, StageFields const &q,
-                                                  Vector2 const &g, Vector2 const &e, CornerShift const &shift,
-                                                  Gradient &all)
-  {
-    Deviations of_record, of_corner;
     int const largest = overlays.largest();
+    double rest = 0.0, left = 0.0, all = 0.0;
     for (int o = 0; o < overlays.parts(); ++o)
     {
-      LinearWeights const w = weights(q.record[DensityField], g, e, overlays.fieldMoments(o));
-      double const per_volume = 1.0 / w.volume, per_mass = 1.0 / w.mass;
-      Vector2 const v = per_volume * w.by_volume, m = per_mass * w.by_mass;
-      of_record.add(all.x.record * fieldWeights(v[0], m[0]) + all.y.record * fieldWeights(v[1], m[1]));
-      Vector2 const c = m + per_mass * shift.moment(w.mass, o == largest);
-      of_corner.add(all.x.corner * FieldPack(c[0]) + all.y.corner * FieldPack(c[1]));
+      if (o == largest)
+        continue;
+      OverlayMoments const m = overlays.fieldMoments(o);
+      double const whole = (g[0] * m.first(0) + g[1] * m.first(1)) / m.volume();
+      double const bounded = Math::max(lower - rho, Math::min(whole, upper - rho));
+      rest -= m.volume() * bounded;
+      left += m.volume() * Math::fabs(bounded);
+      all += m.volume() * Math::fabs(whole);
     }
-    limit(of_record, q.record, all.lower.record, all.upper.record, all.x.record, all.y.record);
-    limit(of_corner, q.corner, all.lower.corner, all.upper.corner, all.x.corner, all.y.corner);
+    rest /= overlays.fieldMoments(largest).volume();
+    double const part = partWithin<double>(Math::min(rest, 0.0), Math::max(rest, 0.0), rho, lower, upper);
+    return {part, all > 0.0 ? part * (left / all) : part};
+  }
+
+  /// The factor that keeps a deviation within range.
+  KOKKOS_INLINE_FUNCTION static FieldPack partsWithin(FieldPack const &deviation, FieldPack const &q,
+                                                      FieldPack const &lower, FieldPack const &upper)
+  {
+    FieldPack part;
+    for (int p = 0; p < FieldPack::parts; ++p)
+      part.part[p] = partWithin<Pack>(Math::min(deviation.part[p], Pack(0.0)), Math::max(deviation.part[p], Pack(0.0)),
+                                      q.part[p], lower.part[p], upper.part[p]);
+    return part;
+  }
+
+  /// Limit all fields to range; `density` is the factor of the density's deviations.
+  KOKKOS_INLINE_FUNCTION static void limitToRange(OverlayList<OverlayMoments> const &overlays, Gradient const &range,
+                                                  double density, Polynomial &p)
+  {
+    p.to_range = true;
+    p.least = range.lower - p.mean;
+    p.most = range.upper - p.mean;
+    double const rho = p.mean.record[DensityField];
+    int const largest = overlays.largest();
+    StageFields rest = stageFields(0.0);
+    double rest_mass = rho * overlays.whole.volume();
+    for (int o = 0; o < overlays.parts(); ++o)
+    {
+      if (o == largest)
+        continue;
+      LinearWeights const w = weights(rho, p.slope, p.mass_offset, overlays.fieldMoments(o));
+      StageFields const d = boundedDeviations(p, w);
+      double const mass = w.volume * (rho + density * d.record[DensityField]);
+      rest.record -= d.record * fieldWeights(w.volume, mass);
+      rest.corner -= d.corner * FieldPack(mass);
+      rest_mass -= mass;
+    }
+    double const volume = overlays.fieldMoments(largest).volume();
+    rest.record *= fieldWeights(1.0 / volume, 1.0 / rest_mass);
+    rest.corner *= FieldPack(1.0 / rest_mass);
+    p.part.record = partsWithin(rest.record, p.mean.record, range.lower.record, range.upper.record);
+    p.part.corner = partsWithin(rest.corner, p.mean.corner, range.lower.corner, range.upper.corner);
+    p.of_largest = {rest.record * p.part.record, rest.corner * p.part.corner};
   }
 
   /// The gradient of a donor of mean q, not yet limited; the range g starts with its values before and after stage 1.
@@ -404,23 +456,22 @@ struct PolynomialFinder
       limitVanLeer(beyond, false, g.x.record, g.y.record);
       limitVanLeer(beyond, true, g.x.corner, g.y.corner);
     }
-    bool const to_range = limitsToRange();
     double const rho = q.record[DensityField], volume = donors.shape(donor, 0);
-    Vector2 slope{g.x.record[DensityField], g.y.record[DensityField]};
-    if (to_range)
-      slope = densityPart(overlays, rho, slope, g.lower.record[DensityField], g.upper.record[DensityField]) * slope;
-    double const per_mass = 1.0 / (rho * volume);
-    Vector2 const e{per_mass * (donors.shape(donor, 3) * slope[0] + donors.shape(donor, 4) * slope[1]),
-                    per_mass * (donors.shape(donor, 4) * slope[0] + donors.shape(donor, 5) * slope[1])};
-    Vector2 const mass_centroid = Vector2{donors.shape(donor, 1), donors.shape(donor, 2)} + e;
-    result.shift = {mass_centroid - cellCentre(donor), rho * volume};
-    if (to_range)
-      limitToRange(overlays, q, slope, e, result.shift, g);
-    g.x.record.set<DensityField>(slope[0]);
-    g.y.record.set<DensityField>(slope[1]);
     result.x = g.x;
     result.y = g.y;
-    result.mass_offset = e;
+    Vector2 const steep{g.x.record[DensityField], g.y.record[DensityField]};
+    DensityParts density{1.0, 1.0};
+    if (limitsToRange())
+      density = densityParts(overlays, rho, steep, g.lower.record[DensityField], g.upper.record[DensityField]);
+    Vector2 const slope = result.slope = density.slope * steep;
+    double const per_mass = 1.0 / (rho * volume);
+    Vector2 const e =
+        result.mass_offset = {per_mass * (donors.shape(donor, 3) * slope[0] + donors.shape(donor, 4) * slope[1]),
+                              per_mass * (donors.shape(donor, 4) * slope[0] + donors.shape(donor, 5) * slope[1])};
+    Vector2 const mass_centroid = Vector2{donors.shape(donor, 1), donors.shape(donor, 2)} + e;
+    result.shift = {mass_centroid - cellCentre(donor), rho * volume};
+    if (limitsToRange())
+      limitToRange(overlays, g, density.part, result);
     return result;
   }
 };

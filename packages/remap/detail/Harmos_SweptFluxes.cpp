@@ -284,9 +284,9 @@ struct SweptFluxFunctor
         storePack(out.face[k] + (1 + field) * column_stride, weight[k] * (q + part * deviation[k]));
   }
 
-  /// From the swept centroids to those of the mass in what is swept, as seen from the cell's: with density rho + g . x a
-  /// region of central second moments S (over its volume) has its mass S g / rho off. S = (a a^T + b b^T) / 12 with the
-  /// mid-lines a, b of the cell, (d - 2 x) in place of the one across a face, whose outward mid-line is d, for what
+  /// From the swept centroids to those of the mass in what is swept, as seen from the cell's: with density rho + g . x
+  /// a region of central second moments S (over its volume) has its mass S g / rho off. S = (a a^T + b b^T) / 12 with
+  /// the mid-lines a, b of the cell, (d - 2 x) in place of the one across a face, whose outward mid-line is d, for what
   /// passes through it (exact on parallelograms). \param part Of the gradient of f, the density.
   KOKKOS_FORCEINLINE_FUNCTION static void moveToMassCentroids(Beyond const &offset, Field const &f, Pack const &part,
                                                               Pack const (&mass)[4], Outflow &out)
@@ -330,9 +330,9 @@ struct SweptFluxFunctor
   /// and pure cells keep s = volume / mass however steep the density is. Bounds are those of s.
   /// \param density Of the cells, and beyond the faces.
   KOKKOS_FORCEINLINE_FUNCTION void remapSpecificVolume(int first, Directions const &directions, Beyond const &offset,
-                                                       Columns const &columns, Outflow const &out,
-                                                       Field const &density, Pack const (&density_beyond)[4],
-                                                       Pack const (&mass)[4], Pack const &per_mass) const
+                                                       Columns const &columns, Outflow const &out, Field const &density,
+                                                       Pack const (&density_beyond)[4], Pack const (&mass)[4],
+                                                       Pack const &per_mass) const
   {
     Pack p[4], theta[4], deviation[4] = {0.0, 0.0, 0.0, 0.0};
     Beyond inside = offset;

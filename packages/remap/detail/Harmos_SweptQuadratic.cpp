@@ -11,8 +11,8 @@ namespace RemapDetail
 namespace
 {
 
-/// Of the cell: what faces sweep beyond it. Less has a centroid (sweptGeometry), but round-off for corners: it counts as
-/// a point. (Ahead of a wave velocities fade to 1e-100 of its own.)
+/// Of the cell: what faces sweep beyond it. Less has a centroid (sweptGeometry), but round-off for corners: it counts
+/// as a point. (Ahead of a wave velocities fade to 1e-100 of its own.)
 constexpr double least_spread_part = 1e-10;
 
 /// A pure cell with all nodes moved, and where stage 1 takes them.
@@ -264,8 +264,8 @@ struct SweptQuadraticFunctor
       double swept = mean + part * ratio[k];
       if (by_range)
         swept = Math::max(d.lower[SpecificVolume], Math::min(swept, d.upper[SpecificVolume]));
-      d.deviation[k].set<SpecificVolume>(
-          d.swept_mass[k] > 0.0 ? d.swept_volume[k] * swept / d.swept_mass[k] - own : 0.0);
+      d.deviation[k].set<SpecificVolume>(d.swept_mass[k] > 0.0 ? d.swept_volume[k] * swept / d.swept_mass[k] - own
+                                                               : 0.0);
     }
     d.q.set<SpecificVolume>(own);
     d.lower.set<SpecificVolume>(d.least);
