@@ -12,11 +12,11 @@ namespace Harmos
 namespace
 {
 
-std::vector<double> const &arrayOf(CheckpointScalars const &scalars, std::string const &name)
+std::vector<double> const &arrayOf(CheckpointScalars const &scalars, char const *name)
 {
   auto const found = scalars.arrays.find(name);
   if (found == scalars.arrays.end())
-    throw std::runtime_error("it has no array '" + name + "'");
+    throw std::runtime_error(std::string("it has no array '") + name + "'");
   return found->second;
 }
 

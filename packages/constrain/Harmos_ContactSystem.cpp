@@ -34,7 +34,7 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
         {
           int const dof = dofOf(row(r), k);
           if (dof >= 0)
-            Kokkos::atomic_increment(&uses(dof));
+            Kokkos::atomic_add(&uses(dof), 1);
         }
       });
   int const most = Math::min(num_dof_nodes, 8 * rows.count);

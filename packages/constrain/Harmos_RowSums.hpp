@@ -3,6 +3,7 @@
 #define HARMOS_ROW_SUMS_HPP
 
 #include <Harmos_Exchange.hpp>
+#include <Harmos_ReducedValues.hpp>
 
 #include <array>
 
@@ -45,7 +46,8 @@ std::array<double, Width> reproducibleColumnSums(View<double *[Width]> const &te
   ReproducibleSum const sum = reproducibleSum(exchange.max(count > 0 ? largest : 0.0), items);
   std::array<long long, Width> quanta = {};
   Kokkos::parallel_reduce("Harmos::constrain::sumTerms", RangePolicy(0, count), ColumnQuanta<Width>{Width, term, sum},
-                          quanta.data());
+                          ReducedValues<long long>(quanta.data(), Width));
+  Kokkos::fence();
   exchange.sum(quanta.data(), Width);
   std::array<double, Width> result;
   for (int c = 0; c < Width; ++c)

@@ -108,7 +108,7 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest)
   Kokkos::parallel_for(
       "Harmos::constrain::countBins", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
         bucket(i) = bins.bucket(bins.index(segment(i).midpoint[0]), bins.index(segment(i).midpoint[1]));
-        Kokkos::atomic_increment(&filled(bucket(i)));
+        Kokkos::atomic_add(&filled(bucket(i)), 1);
       });
   Kokkos::parallel_scan(
       "Harmos::constrain::scanBins", RangePolicy(0, buckets), KOKKOS_LAMBDA(int b, int &sum, bool final) {

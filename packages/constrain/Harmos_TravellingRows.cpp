@@ -138,7 +138,7 @@ View<int *> rowsByCell(Mesh const &mesh, ContactRows const &own, HaloCells const
   View<int *> const cell = halo.received;
   Kokkos::parallel_for(
       "Harmos::constrain::countOwnRows", RangePolicy(0, own.count),
-      KOKKOS_LAMBDA(int i) { Kokkos::atomic_increment(&offset(row(i).cell_a + 1)); });
+      KOKKOS_LAMBDA(int i) { Kokkos::atomic_add(&offset(row(i).cell_a + 1), 1); });
   Kokkos::parallel_for(
       "Harmos::constrain::countHaloRows", RangePolicy(0, received.extent(0)),
       KOKKOS_LAMBDA(int i) { offset(cell(i) + 1) = received(i); });

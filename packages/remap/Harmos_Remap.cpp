@@ -5,6 +5,8 @@
 #include <detail/Harmos_Kept.hpp>
 #include <detail/Harmos_Rebuild.hpp>
 
+#include <Harmos_ReducedValues.hpp>
+
 #include <stdexcept>
 
 namespace Harmos
@@ -218,7 +220,9 @@ void addBookings(Classes const &classes, Bookings const &bookings, RemapReport &
   double sum[num_bookings];
   BookingSums sums;
   sums.bookings = bookings;
-  Kokkos::parallel_reduce("Harmos::remap::addBookings", RangePolicy(0, classes.num_interface), sums, sum);
+  Kokkos::parallel_reduce("Harmos::remap::addBookings", RangePolicy(0, classes.num_interface), sums,
+                          ReducedValues<double>(sum, num_bookings));
+  Kokkos::fence();
   report.overlap_volume += sum[BookOverlap];
   report.void_volume += sum[BookVoid];
   report.closed_volume += sum[BookClosed];

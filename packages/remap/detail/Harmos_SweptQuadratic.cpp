@@ -306,7 +306,7 @@ struct SweptQuadraticFunctor
     d.cell = cell;
     d.spread = spreadOf(cell);
     d.volume = *stage.at(MovedVolume, cell);
-    d.density = *stage.at(FieldColumn + DensityField, cell);
+    d.density = fieldOf(cell, DensityField);
     d.q = valueOf(cell);
     SweptCorners const corners = sweptCorners(stage, cell);
     double staying_volume = d.volume;
