@@ -20,6 +20,7 @@ struct CornerForceFunctor
   PairState state;
   int const *material_of;
   int const *cell_of;
+  double const *cell_volume;
   Material const *materials;
   RowPointer<int, 4> cell_node, dof_node;
   RowPointer<double, 2> position, velocity;
@@ -32,7 +33,7 @@ struct CornerForceFunctor
   /// Tension: failed pairs bear none, the others what they would not fail at. failPairs leaves none beyond, but the
   /// remap mixes: of vapour and condensed matter, both without pressure, the mean energy and volume may stand at the
   /// cold curve's deepest tension. Compression: failPairs lets the void of its cell close before a failed pair loses
-  /// volume, and so before it resists.
+  /// volume, and so before it resists: the void that their volumes leave, not their outlines.
   KOKKOS_FORCEINLINE_FUNCTION detail::Bearing<Pack> bearing(Material const &material, int const pair[pack_width],
                                                             int const cell[pack_width]) const
   {
@@ -48,7 +49,8 @@ struct CornerForceFunctor
       bool const failed = damage >= least_failed_open && isFailed(material, damage, open > least_void);
       strength[lane] = failed ? 0.0 : sound;
       room[lane] = failed && open > least_void && options.closure == Closure::EqualStrain
-                       ? open / record(pair[lane], VolumeFraction)
+                       ? Math::max(voidOfVolumes(pairs, state.record, cell[lane], cell_volume[cell[lane]]), 0.0) /
+                             filledByVolume(state.record, pair[lane], cell_volume[cell[lane]])
                        : 0.0;
       result.has_room = result.has_room || room[lane] > 0.0;
     }
@@ -108,6 +110,7 @@ detail::PairKernel kernelOf(Mesh const &mesh, CellMaterialPairs const &pairs, Pa
                                            state,
                                            pairs.material.data(),
                                            pairs.cell.data(),
+                                           mesh.cell_volume.data(),
                                            materials.data(),
                                            mesh.cell_node,
                                            pairs.dof_node,

@@ -21,25 +21,23 @@ struct Filling
 /// What void does to a failed pair that the update has strained from sv_n to `strained`.
 ///
 /// The part `bearing` of the strain met its pressure and changes its volume, sv' = sv_n (sv / sv_n)^bearing; void takes
-/// the rest while that of its cell, `room`, lasts: f' = min(f sv' / sv, f + room). Where that leaves tension the pair
-/// shrinks to the volume without pressure, the rest is void.
+/// the rest. Where that leaves tension the pair shrinks to the volume without pressure, the rest is void. A cell that
+/// has void is filled by what the pair's mass takes up, f' = m sv' / V', as far as others leave room: its outline
+/// would come apart from that, since it moves with the nodes of its own corner of the cell and is cut where others
+/// overlap it, and what is cut off would leave void that is none.
+/// \param mass_per_volume m over the volume V' of the moved cell. \param most What others leave of it. \param open The
+/// cell has void.
 KOKKOS_INLINE_FUNCTION Filling failedFilling(Material const &m, Filling const &strained, double energy, double sv_n,
-                                             double room, double others, double bearing)
+                                             double bearing, double mass_per_volume, double most, bool open)
 {
-  Filling next = strained;
-  double const sv = strained.specific_volume, fraction = strained.fraction;
+  double sv = strained.specific_volume;
   if (bearing < 1.0)
-  {
-    next.specific_volume = bearing > 0.0 ? sv_n * Math::pow(sv / sv_n, bearing) : sv_n;
-    double const whole = fraction * (next.specific_volume / sv);
-    next.fraction = whole < fraction + room ? whole : 1.0 - others;
-  }
-  if (equationOfState(m, next.specific_volume, energy).pressure >= 0.0)
-    return next;
-  double const unstressed = unstressedVolume(m, next.specific_volume, energy);
-  Filling const open = {next.fraction * (unstressed / next.specific_volume), unstressed};
-  bool const sealed = room <= 0.0 && fraction - open.fraction < least_opening;
-  return sealed ? next : open;
+    sv = bearing > 0.0 ? sv_n * Math::pow(sv / sv_n, bearing) : sv_n;
+  double const unstressed = equationOfState(m, sv, energy).pressure >= 0.0 ? sv : unstressedVolume(m, sv, energy);
+  if (open)
+    return {Math::min(mass_per_volume * unstressed, most), unstressed};
+  Filling const opened = {strained.fraction * (unstressed / sv), unstressed};
+  return strained.fraction - opened.fraction < least_opening ? strained : opened;
 }
 
 struct FailFunctor
@@ -74,17 +72,17 @@ struct FailFunctor
     return isFailed(m, state.damage(pair), open);
   }
 
-  KOKKOS_INLINE_FUNCTION void relax(int cell, int pair, Material const &m, bool is_new) const
+  KOKKOS_INLINE_FUNCTION void relax(int cell, int pair, Material const &m, bool is_new, bool open) const
   {
     auto const &record = state.record;
     record(pair, DeviatorXX) = record(pair, DeviatorYY) = record(pair, DeviatorXY) = 0.0;
     if (!is_new)
       record(pair, PlasticStrain) = before(pair, BeforePlasticStrain);
-    double const others = othersOf(cell, pair);
     Filling const strained = {record(pair, VolumeFraction), record(pair, SpecificVolume)};
-    double const room = Math::max(1.0 - others - strained.fraction, 0.0);
-    Filling const next = failedFilling(m, strained, record(pair, InternalEnergy), before(pair, BeforeSpecificVolume),
-                                       room, others, before(pair, BeforeBearing));
+    double const sv_n = before(pair, BeforeSpecificVolume);
+    double const moved_volume = mesh.cell_volume(cell) * (strained.specific_volume / sv_n);
+    Filling const next = failedFilling(m, strained, record(pair, InternalEnergy), sv_n, before(pair, BeforeBearing),
+                                       record(pair, Mass) / moved_volume, 1.0 - othersOf(cell, pair), open);
     record(pair, VolumeFraction) = next.fraction;
     record(pair, SpecificVolume) = next.specific_volume;
   }
@@ -102,7 +100,7 @@ struct FailFunctor
       if (!isFailed(m, state.damage(pair), open))
         continue;
       double const fraction = state.record(pair, VolumeFraction);
-      relax(cell, pair, m, is_new);
+      relax(cell, pair, m, is_new, open);
       moved += state.record(pair, VolumeFraction) != fraction ? 1 : 0;
     }
   }

@@ -231,6 +231,7 @@ struct FailureReport
 /// the same factor: void opens. Mass, momentum and energy of the pair stay (what elastic energy it had is heat). When
 /// it is compressed, void in its cell closes first, without work: of A'/A the pair takes (A'/A)^b, b the part of the
 /// compression that computeCornerForces let its pressure meet (BeforeBearing). A pure cell that opens becomes mixed.
+/// Where its cell has void a failed pair fills what its mass takes up, f V' = m sv, as far as others leave room.
 ///
 /// \param pairs cell_kind comes in a new view where kinds change.
 /// In `lagrangian` kinematics a cell keeps its region; its volume fraction is then the part that is no void.
