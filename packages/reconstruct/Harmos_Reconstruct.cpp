@@ -46,9 +46,8 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
     givenOrder(components, options.order, order);
     return fixedPlan(field, components, options.method, options.sliver, order);
   }
-  return components.count > max_exhaustive_components
-             ? greedyPlan(field, components, options.sliver)
-             : partedPlan(field, components, options.sliver, bestPlan(field, components, options.sliver));
+  return components.count > max_exhaustive_components ? greedyPlan(field, components, options.sliver)
+                                                      : bestPlan(field, components, options.sliver);
 }
 
 /// The plan that a cell was cut by; without components where there is none for those that it has now.
@@ -56,7 +55,7 @@ KOKKOS_FUNCTION RemovalPlan formerPlan(CellComponents const &components, FilledR
 {
   RemovalPlan plan;
   int const first = before.cell_region(components.cell);
-  if (first < 0 || before.cut_component(first) < 0)
+  if (first < 0)
     return plan;
   bool const had_void = dot(before.cut_normal(first + num_pairs - 1), before.cut_normal(first + num_pairs - 1)) > 0.0;
   if (num_pairs + (had_void ? 1 : 0) != components.count)
@@ -97,23 +96,6 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
       region[v] = components.fromUnit(part[v]);
   };
   Region polygon = components.polygon;
-  if (plan.parted)
-  {
-    double const open[2] = {plan.void_part, components.volume[2] - plan.void_part};
-    Division const parts = divide(polygon, plan.normal[0], components.volume[0] + open[0],
-                                  components.volume[1] + open[1], components.weight);
-    for (int k = 0; k < 2; ++k)
-    {
-      Region const &part = k == 0 ? parts.inside : parts.outside;
-      write(open[k] > least_void
-                ? divide(part, plan.normal[k + 1], components.volume[k], open[k], components.weight).inside
-                : part,
-            k);
-      regions.cut_component(first + k) = -1;
-      regions.cut_normal(first + k) = {0.0, 0.0};
-    }
-    return status;
-  }
   ComponentSet rest = components.all();
   for (int i = 0; i < num_pairs; ++i)
   {
