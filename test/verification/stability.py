@@ -53,13 +53,13 @@ def test_vital_vertices_keep_a_uniform_pressure_at_an_oblique_interface():
         check(f"vital vertices, {angle:.0f} degrees: deviation of the tractions", deviation("vital vertices", angle), bound)
 
 
-def gases(cut_cell_stress, **more):
+def gases(cut_cell_stress, height=0.487, **more):
     """Largest kinetic over internal energy of one gas in two fields at rest, parted at 20 degrees, in 2 ms (11 times through)."""
     air = "{eos: ideal gas, density: 1.2, gamma: 1.4, internal_energy: 2.0e5}"
     deck = ["harmos:", "  kinematics: xfem", "  mesh: {x: {from: 0.0, to: 1.0, cells: 30}, y: {from: 0.0, to: 1.0, cells: 30}}",
             f"  materials: {{air: {air}}}", "  bodies:",
             "    lower: {material: air, shape: rectangle, center: [0.5, 0.5], size: [1.0, 1.0]}",
-            "    upper: {material: air, shape: half-plane, point: [0.5, 0.487], normal: [0.342, 0.9397], cut: true, density: 1.2, "
+            f"    upper: {{material: air, shape: half-plane, point: [0.5, {height}], normal: [0.342, 0.9397], cut: true, density: 1.2, "
             "pressure: 96000.0}",
             "  run: {end_time: 0.002}", "  output: {history: {every_cycles: 1}, fields: {every_time: 0.0}}"]
     with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
@@ -74,7 +74,10 @@ def gases(cut_cell_stress, **more):
 def test_gases_of_one_pressure_rest_beside_an_oblique_interface():
     # Exact: nothing moves. Forces along the cells' mean gradients are no balance for the tractions and drive jets.
     check("kinetic over internal energy", gases("fluids"), 1e-15)
-    check("about an axis", gases("fluids", geometry="axisymmetric"), 3e-6)
+    for height in (0.467, 0.497):
+        check(f"about an axis, {height} m", gases("fluids", height, geometry="axisymmetric"), 1e-15)
+    # At this height some place gives a push; what is left after 11 times through is the less the more the remap smears.
+    check("about an axis, 0.487 m", gases("fluids", geometry="axisymmetric"), 6e-6)
     driven = gases("cell mean")
     print(f"  cells' mean gradients: {driven:.1e}")
     assert driven > 1e-3
