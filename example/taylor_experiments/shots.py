@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Taylor rods of shots.csv beside what was measured.
 
-shots.py HARMOS RESULTS [--cells N] [--all] [--jobs N] runs deck.yaml for every shot (those with an outline; --all: every
-one) and every strength law that example/materials has for its metal, with N cells over the rod's radius, writes RESULTS/shots.md and draws RESULTS/outlines.png.
+shots.py HARMOS RESULTS [--cells N] [--friction MU] [--all] [--jobs N] runs deck.yaml for every shot (those with an outline;
+--all: every one) and every strength law that example/materials has for its metal, with N cells over the rod's radius and
+Coulomb's friction MU on the wall, writes RESULTS/shots.md and draws RESULTS/outlines.png.
 A shot that has a summary with status `completed` is not run again.
 
 The length is that between the rod's ends, the diameter the largest one: means over the last quarter of the run, when the
@@ -36,7 +37,7 @@ def rows(path):
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
-def settings(shot, law, cells):
+def settings(shot, law, cells, friction=0.0):
     """Deck keys of a shot: cells of equal width and height, room for 1.5 diameters and one cell above the rod."""
     length, diameter = 1e-3 * float(shot["length"]), 1e-3 * float(shot["diameter"])
     width = 0.5 * diameter / cells
@@ -48,15 +49,17 @@ def settings(shot, law, cells):
             "materials/metal": f"{{from: ../materials/{lawFile(shot, law).name}{extra}}}",
             "bodies/rod/center": f"[0.0, {0.5 * length!r}]", "bodies/rod/size": f"[{diameter!r}, {length!r}]",
             "bodies/rod/velocity": f"[0.0, -{shot['speed']}.0]",
-            "run/end_time": 1.0e-4 * length / 25.4e-3}
+            "boundaries/bottom/friction": friction, "run/end_time": 1.0e-4 * length / 25.4e-3}
 
 
-def folder(results, shot, law, cells):
-    return results / f"{shot['shot'].replace(' ', '_')}_{law}_{cells}"
+def folder(shot, law, options):
+    friction = f"_friction_{options.friction}" if options.friction else ""
+    return options.results / f"{shot['shot'].replace(' ', '_')}_{law}_{options.cells}{friction}"
 
 
-def run(harmos, results, shot, law, cells):
-    completedRun(harmos, HERE / "deck.yaml", folder(results, shot, law, cells), settings(shot, law, cells))
+def run(shot, law, options):
+    completedRun(options.harmos, HERE / "deck.yaml", folder(shot, law, options),
+                 settings(shot, law, options.cells, options.friction))
 
 
 def measure(out):
@@ -72,12 +75,12 @@ def departure(computed, measured):
     return f"{100.0 * (computed / float(measured) - 1.0):+.1f}%" if measured else ""
 
 
-def table(results, shots, cells):
+def table(shots, options):
     lines = ["| shot [m/s] | law | length [mm] | measured | | diameter [mm] | measured | | plastic strain |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     for shot in shots:
         for law in lawsOf(shot):
-            length, diameter, strain = measure(folder(results, shot, law, cells))
+            length, diameter, strain = measure(folder(shot, law, options))
             lines.append(f"| {shot['shot']} | {law} | {length:.2f} | {shot['final_length']} | "
                          f"{departure(length, shot['final_length'])} | {diameter:.2f} | {shot['final_diameter']} | "
                          f"{departure(diameter, shot['final_diameter'])} | {strain:.2f} |")
@@ -97,7 +100,7 @@ def outline(out):
     return numpy.concatenate([ends, ends * [-1.0, 1.0]])
 
 
-def draw(results, shots, cells, picture):
+def draw(shots, options, picture):
     import matplotlib
 
     matplotlib.use("Agg")
@@ -115,7 +118,7 @@ def draw(results, shots, cells, picture):
             axis.plot(side * points[:, 0], points[:, 1], color="#777777", lw=0.8)
         for law in lawsOf(shot):
             colour = LAWS[law]
-            axis.add_collection(LineCollection(outline(folder(results, shot, law, cells)), colors=colour, lw=1.4))
+            axis.add_collection(LineCollection(outline(folder(shot, law, options)), colors=colour, lw=1.4))
             axis.plot([], [], color=colour, lw=1.4, label=law)
         start = 0.5 * float(shot["diameter"])
         axis.plot([-start, -start, start, start], [0.0, float(shot["length"]), float(shot["length"]), 0.0], ":", color="black",
@@ -131,19 +134,20 @@ def main():
     parser.add_argument("harmos")
     parser.add_argument("results", type=pathlib.Path)
     parser.add_argument("--cells", type=int, default=8, help="over the rod's radius")
+    parser.add_argument("--friction", type=float, default=0.0, help="Coulomb's coefficient on the wall")
     parser.add_argument("--all", action="store_true", help="every shot, not only those with an outline")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
     options = parser.parse_args()
     shots = [shot for shot in rows(HERE / "shots.csv") if options.all or shot["outline"]]
     options.results.mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        runs = [pool.submit(run, options.harmos, options.results, shot, law, options.cells) for shot in shots for law in lawsOf(shot)]
+        runs = [pool.submit(run, shot, law, options) for shot in shots for law in lawsOf(shot)]
         for finished in runs:
             finished.result()
-    text = table(options.results, shots, options.cells)
+    text = table(shots, options)
     (options.results / "shots.md").write_text(text)
     print(text, end="")
-    draw(options.results, shots, options.cells, options.results / "outlines.png")
+    draw(shots, options, options.results / "outlines.png")
 
 
 if __name__ == "__main__":
