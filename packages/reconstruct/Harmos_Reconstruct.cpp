@@ -46,8 +46,9 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
     givenOrder(components, options.order, order);
     return fixedPlan(field, components, options.method, options.sliver, order);
   }
-  return components.count > max_exhaustive_components ? greedyPlan(field, components, options.sliver)
-                                                      : bestPlan(field, components, options.sliver);
+  return components.count > max_exhaustive_components
+             ? greedyPlan(field, components, options.sliver)
+             : partedPlan(field, components, options.sliver, bestPlan(field, components, options.sliver));
 }
 
 /// The plan that a cell was cut by; without components where there is none for those that it has now.
@@ -55,7 +56,7 @@ KOKKOS_FUNCTION RemovalPlan formerPlan(CellComponents const &components, FilledR
 {
   RemovalPlan plan;
   int const first = before.cell_region(components.cell);
-  if (first < 0)
+  if (first < 0 || before.cut_component(first) < 0)
     return plan;
   bool const had_void = dot(before.cut_normal(first + num_pairs - 1), before.cut_normal(first + num_pairs - 1)) > 0.0;
   if (num_pairs + (had_void ? 1 : 0) != components.count)
@@ -96,6 +97,23 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
       region[v] = components.fromUnit(part[v]);
   };
   Region polygon = components.polygon;
+  if (plan.parted)
+  {
+    double const open[2] = {plan.void_part, components.volume[2] - plan.void_part};
+    Division const parts = divide(polygon, plan.normal[0], components.volume[0] + open[0],
+                                  components.volume[1] + open[1], components.weight);
+    for (int k = 0; k < 2; ++k)
+    {
+      Region const &part = k == 0 ? parts.inside : parts.outside;
+      write(open[k] > least_void
+                ? divide(part, plan.normal[k + 1], components.volume[k], open[k], components.weight).inside
+                : part,
+            k);
+      regions.cut_component(first + k) = -1;
+      regions.cut_normal(first + k) = {0.0, 0.0};
+    }
+    return status;
+  }
   ComponentSet rest = components.all();
   for (int i = 0; i < num_pairs; ++i)
   {
@@ -181,11 +199,11 @@ FilledRegions listMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs)
       },
       num_regions);
   // All are written.
-  regions.polygon = View<Region *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::polygon"),
-                                   num_regions);
+  regions.polygon =
+      View<Region *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::polygon"), num_regions);
   regions.cut_component = unset("Harmos::reconstruct::cut_component", num_regions);
-  regions.cut_normal = View<Vector2 *>(
-      Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::cut_normal"), num_regions);
+  regions.cut_normal =
+      View<Vector2 *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::cut_normal"), num_regions);
   return regions;
 }
 

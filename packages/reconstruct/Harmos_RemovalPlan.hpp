@@ -2,14 +2,16 @@
 #ifndef HARMOS_REMOVAL_PLAN_HPP
 #define HARMOS_REMOVAL_PLAN_HPP
 
-#include <Harmos_LeastSquaresLine.hpp>
-#include <Harmos_MomentOfFluid.hpp>
+#include <Harmos_Clip.hpp>
+#include <Harmos_PartedCell.hpp>
 #include <Harmos_Reconstruct.hpp>
 
 namespace Harmos
 {
 
-/// In which order a cell's components are cut off, and with which normals; the last one keeps the remainder.
+/// In which order a cell's components are cut off, and with which normals; the last one keeps the remainder. Or the
+/// cell is parted: normal[0] leaves the part that component 0 shares with void_part of the void, normal[1] and
+/// normal[2] leave components 0 and 1 in their parts.
 struct RemovalPlan
 {
   int count = 0;
@@ -17,6 +19,8 @@ struct RemovalPlan
   Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
   double error = 0.0;             // the measure that orders are compared by
   int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
+  bool parted = false;
+  double void_part = 0.0; // of the cell
 
   KOKKOS_INLINE_FUNCTION void set(int i, int which, Vector2 const &its_normal)
   {
@@ -26,7 +30,9 @@ struct RemovalPlan
 };
 
 constexpr double sliver_penalty = 0.1; // of its volume times its line's misfit
+constexpr double parting_misfit = 0.1; // of the smaller body's volume times the parting line's misfit
 constexpr double thin_volume = 1e-3;   // of the cell: a line that cuts it off passes near the cell's border
+constexpr double removal_tie = 1e-20;  // orders whose errors differ by less are as good
 
 /// Normal of the line that divides a polygon into two sets of components.
 struct CutNormal
@@ -160,7 +166,6 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
                                             double sliver)
 {
   constexpr int max_count = 5;
-  constexpr double tie = 1e-20;
   Region polygon[max_count];
   ComponentSet rest[max_count];
   int candidate[max_count];
@@ -174,7 +179,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
   candidate[0] = -1;
   error[0] = 0.0;
   // No sum is below zero: one within a tie of it is not beaten.
-  for (int depth = 0; depth >= 0 && best.error > tie;)
+  for (int depth = 0; depth >= 0 && best.error > removal_tie;)
   {
     bool const two_left = depth == count - 2;
     int k = candidate[depth] + 1;
@@ -203,7 +208,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     if (two_left)
       total += momentError(components, sliver, division.outside, last, cut.normal);
     plan.set(depth, k, cut.normal);
-    if (!(total < best.error - tie))
+    if (!(total < best.error - removal_tie))
       continue;
     if (two_left)
     {
@@ -220,6 +225,116 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
   }
   best.unfinished = plan.unfinished;
   return best;
+}
+
+/// The parting line that cutting body 0, body 1 or the void off first would draw, the own lines placed anew.
+KOKKOS_INLINE_FUNCTION PartedCell partedAsOrder(PartingProblem const &problem, double sliver, int first)
+{
+  CellComponents const &c = problem.components;
+  auto const normalOf = [&](Region const &polygon, ComponentSet inside, ComponentSet outside)
+  { return cutNormal(problem.field, c, ReconstructionMethod::MomentOfFluid, sliver, polygon, inside, outside).normal; };
+  Vector2 normal;
+  double void_part = first == 0 ? 0.0 : c.volume[2];
+  if (first < 2)
+    normal = (first == 0 ? 1.0 : -1.0) * normalOf(c.polygon, 1u << first, 7u & ~(1u << first));
+  else
+  {
+    Division const open = divide(c.polygon, normalOf(c.polygon, 4u, 3u), c.volume[2], c.volumeOf(3u), c.weight);
+    normal = normalOf(open.outside, 1u, 2u);
+    Division const bodies = divide(open.outside, normal, c.volume[0], c.volume[1], c.weight);
+    Region below;
+    clip(open.inside, Plane2{normal, bodies.line.offset}, below);
+    void_part = below.empty() ? 0.0 : c.volumeOfRegion(below);
+  }
+  return problem.at(Math::atan2(normal[1], normal[0]), void_part);
+}
+
+/// Whether the void lies beside the bodies, as at their ends, rather than between them: its centroid, seen from that of
+/// both bodies, across the line from one to the other.
+KOKKOS_INLINE_FUNCTION bool voidIsBeside(CellComponents const &c)
+{
+  Vector2 const both = (1.0 / c.volumeOf(3u)) * (c.volume[0] * c.centroid[0] + c.volume[1] * c.centroid[1]);
+  Vector2 const apart = c.centroid[1] - c.centroid[0], towards = c.centroid[2] - both;
+  return 2.0 * Math::fabs(cross(apart, towards)) > Math::fabs(dot(apart, towards));
+}
+
+/// Whether both bodies end in a parted cell: each has void, behind a line more than 45 degrees from the parting one.
+KOKKOS_INLINE_FUNCTION bool bothEnd(PartedCell const &cell)
+{
+  bool ends = true;
+  for (int k = 0; k < 2; ++k)
+  {
+    double const along = dot(cell.own[k], cell.normal);
+    ends = ends && cell.lined[k] && 2.0 * along * along <= 1.0;
+  }
+  return ends;
+}
+
+/// Whether the void of a parted cell lies between its bodies: behind lines within 30 degrees of the parting one.
+KOKKOS_INLINE_FUNCTION bool voidIsBetween(PartedCell const &cell)
+{
+  bool between = true;
+  for (int k = 0; k < 2; ++k)
+  {
+    double const along = dot(cell.own[k], cell.normal);
+    between = between && cell.lined[k] && 4.0 * along * along > 3.0;
+  }
+  return between;
+}
+
+/// Two bodies and void, none a sliver, that the given sequence of cuts does not leave as they are: part the cell where
+/// both bodies end there, and it suits their centroids better.
+/// (A void that lies between the bodies is bounded by faces along that line; each body's own centroid places it, and
+/// four free parameters would follow noise. A body that one cut leaves exact, as a rigid floor, has no end there.)
+///
+/// What a sequence of cuts misses while corners pass each other is little in a cycle, and forgotten with it: the next
+/// one has the centroids of what was cut. The sum does not stay little: the line between the bodies turned upright
+/// within a cell of slip, and the bodies were hooked to each other.
+///
+/// The search begins at the best of the lines that the three orders would draw, and at the next best where it ends
+/// nowhere near an exact cell.
+KOKKOS_INLINE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, CellComponents const &components,
+                                              double sliver, RemovalPlan const &sequence)
+{
+  constexpr double near_exact = 1e-6; // of the sequence's error
+  if (components.count != 3 || components.material[2] != void_material || sequence.error <= removal_tie)
+    return sequence;
+  for (int k = 0; k < 3; ++k)
+    if (components.volume[k] < sliver)
+      return sequence;
+  if (!voidIsBeside(components))
+    return sequence;
+  PartingProblem const problem(field, components, parting_misfit);
+  PartedCell start[3];
+  for (int first = 2; first >= 0; --first)
+  {
+    start[first] = partedAsOrder(problem, sliver, first);
+    if (first == 2 && voidIsBetween(start[first]))
+      return sequence;
+    if (first < 2 && dot(start[first].miss[first], start[first].miss[first]) <= removal_tie)
+      return sequence;
+  }
+  PartedCell cell = {};
+  for (int tries = 0; tries < 2 && !(cell.error <= near_exact * sequence.error); ++tries)
+  {
+    int best = 0;
+    for (int first = 1; first < 3; ++first)
+      best = start[first].error < start[best].error ? first : best;
+    PartedCell const trial = bestPartedCell(problem, start[best]);
+    if (trial.error < cell.error)
+      cell = trial;
+    start[best].error = 1e300;
+  }
+  if (!bothEnd(cell) || !(dot(cell.miss[0], cell.miss[0]) + dot(cell.miss[1], cell.miss[1]) < sequence.error))
+    return sequence;
+  RemovalPlan plan = sequence;
+  plan.parted = true;
+  plan.void_part = cell.void_part;
+  plan.unfinished += cell.converged ? 0 : 1;
+  plan.set(0, 0, cell.normal);
+  plan.set(1, 1, cell.own[0]);
+  plan.set(2, 2, cell.own[1]);
+  return plan;
 }
 
 /// One component after the other, each time the one whose cut has the least centroid error.

@@ -150,23 +150,26 @@ def released(load):
     return sigma**2 / (2.0 * young / (1.0 - poisson**2)) * TEE_TIME / (2700.0 * 0.5 * SPEED)
 
 
-# At load 4 the corner that slides along the slider digs in: that is what is left of the difference. How far hangs on last
-# digits, so that the median of three offsets is bounded. Nine offsets by up to 7e-11 cells gave 2.3e-4 to 4.8e-4 six times
-# and 2.0e-3 to 2.2e-3 three times at 0 degrees, five 5.9e-4 once and 9.2e-4 to 9.9e-4 four times at 15.
+# While corners that pass each other were cut off one after the other, six angles and four offsets of the mesh gave up to
+# 1.6e-2 at load 4: the slider and the right block hooked to each other. What is left hangs on last digits, so that the median
+# of three offsets is bounded. Five offsets by up to 4e-11 cells gave, at load 1, 9e-6 to 1.3e-5 and once 4.5e-5 at 0 degrees,
+# 3.6e-5 to 3.8e-5 at 15; at load 4 2.2e-4 to 2.8e-4, 3.9e-4 to 4.1e-4 and, at 30 degrees, 3.9e-4 to 4.3e-4.
 def test_three_blocks_at_a_t_push_the_slider_out_as_body_fitted_ones_do():
     h = 2.4 / 38
-    for load, offsets, worst in ((1.0, (0.0,), 5e-5), (4.0, (0.0, 1e-11, 2e-11), 1.2e-3)):
+    quiet = ((0.0, (0.0, 0.0)), (15.0, (0.31 * h, 0.17 * h)))
+    hard = quiet + ((30.0, (0.0, 0.0)),)
+    for load, placed, worst in ((1.0, quiet, 5e-5), (4.0, hard, 6e-4)):
         time, exact = fitted_tee(load)
         print(f"  load {load}: body-fitted {exact[-1]:.2e}, all energy released {released(load):.2e}")
         check("body-fitted gain of the slider, over what the energy released gives", abs(exact[-1] / released(load) - 1.0), 0.3)
-        for angle, shift in ((0.0, (0.0, 0.0)), (15.0, (0.31 * h, 0.17 * h))):
+        for angle, shift in placed:
             errors = []
-            for offset in offsets:
+            for offset in (0.0, 1e-11, 2e-11):
                 when, change = tee(angle, (shift[0] + offset * h, shift[1]), load)
                 errors.append(max(abs(c - interpolated(time, exact, t)) for t, c in zip(when, change)))
             print("  differences:", ", ".join(f"{e:.2e}" for e in errors))
             check(f"{angle} degrees, load {load}: change of the slider's momentum, median difference",
-                  sorted(errors)[len(errors) // 2], worst)
+                  sorted(errors)[1], worst)
             check("the largest", max(errors), 2.5 * worst)
 
 

@@ -23,7 +23,7 @@ def test_disc_goes_through_and_everything_is_conserved():
 
 
 # The end of this run follows the last digits of the start: one run's overlap says little. Thirteen offsets of the disc
-# by up to 4e-9 cells gave 0.40 to 0.49, half of them 0.43 and more; with one row a facet, where tilted facets are through with their ends,
+# by up to 4e-9 cells gave 0.41 to 0.45, half of them 0.41 and more; with one row a facet, where tilted facets are through with their ends,
 # 0.79; where fragments that lie beyond an outflow face after one step stayed there, up to 0.68.
 def test_moved_regions_overlap_by_less_than_half_a_cell():
     overlaps = []

@@ -214,3 +214,34 @@ TEST(ReconstructJunctions, tipBeforeAWedgeOfVoid_staysOnItsSide)
     EXPECT_NEAR(found[1], centroid(offset(cell), 1), 0.03) << enters;
   }
 }
+
+// Two bodies that had their end faces in line slide on each other: for a while both corners lie in one cell. All that
+// bounds them there is straight, but no sequence of cuts leaves both what they have.
+//
+//   | a  |                the cell: a's corner above the line, b's farther to the right below it, void right of both
+//   |----+--+
+//   | b     |
+TEST(ReconstructJunctions, cornersThatSlidePastEachOther_areExact)
+{
+  Mesh const mesh = makeMesh(6, 6, 1.0);
+  for (double const degrees : {0.0, 10.0, 22.5, 33.0, 45.0})
+    for (double const slip : {0.02, 0.1, 0.3, 0.6})
+    {
+      Vector2 const corner{3.2, 3.3};
+      Vector2 const moved = corner + slip * halfPlane(degrees, corner).normal;
+      std::vector<Body> const all{{halfPlane(degrees - 90.0, corner), halfPlane(degrees, corner)},
+                                  {halfPlane(degrees + 90.0, corner), halfPlane(degrees, moved)}};
+      Scene const scene = paint(mesh, bodies(all));
+      FilledRegions const regions = momentOfFluid(scene, 1e-3);
+      int const cell = 3 * 6 + 3;
+      auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
+      auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
+      auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
+      ASSERT_EQ(offset(cell + 1) - offset(cell), 2);
+      for (int k = 0; k < 2; ++k)
+      {
+        Region const &region = polygon(first(cell) + k);
+        EXPECT_NEAR(area(intersection(region, all[k])), area(region), 1e-9) << degrees << " degrees, slip " << slip;
+      }
+    }
+}

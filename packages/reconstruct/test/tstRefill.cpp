@@ -48,6 +48,16 @@ FilledRegions refilled(Testing::Scene const &before, Testing::Scene const &after
   return result;
 }
 
+/// Two blocks whose end faces were in line, slid by a part of a cell: the cell of both corners is parted.
+Testing::Scene passingCorners(double slip)
+{
+  Vector2 const corner{3.2, 1.3};
+  Vector2 const moved = corner + slip * halfPlane(10.0, corner).normal;
+  std::vector<Testing::Body> const blocks{{halfPlane(-80.0, corner), halfPlane(10.0, corner)},
+                                          {halfPlane(100.0, corner), halfPlane(10.0, moved)}};
+  return paint(makeMesh(6, 3, 1.0), bodies(blocks));
+}
+
 /// The largest distance between vertices of the same number.
 double distance(FilledRegions const &a, FilledRegions const &b)
 {
@@ -93,4 +103,42 @@ TEST(Refill, CellsWhoseVoidComesOrGoes_areReconstructed)
   FilledRegions const without_void = reconstructed(closed.scene), with_void = reconstructed(open.scene);
   EXPECT_EQ(distance(without_void, refilled(closed.scene, closed.scene, with_void)), 0.0);
   EXPECT_EQ(distance(with_void, refilled(open.scene, open.scene, without_void)), 0.0);
+}
+
+TEST(Refill, PartedCells_areReconstructed)
+{
+  Testing::Scene const before = passingCorners(0.1), after = passingCorners(0.13);
+  ASSERT_EQ(before.pairs.num_pairs, after.pairs.num_pairs);
+  FilledRegions const regions = reconstructed(before);
+  int const cell = 6 + 3;
+  auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
+  auto const component = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cut_component);
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), before.pairs.offset);
+  ASSERT_GE(first(cell), 0);
+  EXPECT_EQ(component(first(cell)), -1);
+  EXPECT_EQ(component(first(cell) + 1), -1);
+  EXPECT_EQ(distance(regions, refilled(before, before, regions)), 0.0);
+
+  // Other fractions, then the void of that cell closed: as if there had been no regions before.
+  Testing::Scene changed = before, closed = before;
+  changed.state.record = after.state.record;
+  closed.state.record = View<double *[num_pair_fields]>("record", before.pairs.num_pairs);
+  auto const record = Kokkos::create_mirror_view(closed.state.record);
+  Kokkos::deep_copy(record, before.state.record);
+  double const lower = record(offset(cell) + 1, VolumeFraction);
+  record(offset(cell), VolumeFraction) = 1.0 - lower;
+  Kokkos::deep_copy(closed.state.record, record);
+  for (Testing::Scene const &scene : {changed, closed})
+  {
+    auto const anew = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), reconstructed(scene).polygon);
+    auto const kept =
+        Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), refilled(before, scene, regions).polygon);
+    for (int k = 0; k < 2; ++k)
+    {
+      Region const &a = anew(first(cell) + k), &b = kept(first(cell) + k);
+      ASSERT_EQ(a.size, b.size);
+      for (int v = 0; v < a.size; ++v)
+        EXPECT_EQ(norm(a[v] - b[v]), 0.0);
+    }
+  }
 }
