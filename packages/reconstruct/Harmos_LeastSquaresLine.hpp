@@ -150,10 +150,10 @@ KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vect
   return {laneSum(value) * inverse_count, laneSum(gradient) * inverse_count, laneSum(hessian) * inverse_count};
 }
 
-/// Angles between which the misfit has a minimum, as its slope's signs and its values tell.
+/// Angles between which the misfit has a minimum, as its slope's signs tell.
 struct AngleBracket
 {
-  double low = 0.0, high = 0.0; // the misfit falls at low; at high it rises, or is larger (or the other way round)
+  double low = 0.0, high = 0.0; // the misfit falls at low and rises at high
   bool has_low = false, has_high = false;
 
   KOKKOS_INLINE_FUNCTION bool closed() const { return has_low && has_high; }
@@ -164,18 +164,14 @@ struct AngleBracket
     (gradient > 0.0 ? high : low) = angle;
     (gradient > 0.0 ? has_high : has_low) = true;
   }
-
-  /// An angle to which the misfit falls at first, with a gradient `here`, but where it is larger.
-  KOKKOS_INLINE_FUNCTION void close(double angle, double here) { add(angle, -here); }
 };
 
 /// A local minimum of the misfit over the angle: Gauss-Newton, from the second step on with the secant of the gradient
 /// in place of the curvature, which lacks the part of the residuals.
 ///
-/// Every step lowers the misfit. Until a minimum is enclosed steps grow where the slope hardly falls (where no straight
-/// line fits, Gauss-Newton alone creeps); from then on they stay inside, by bisection where the secant is slow. There
-/// may be a second minimum inside: where the misfit is larger than at the best angle the bracket ends, whatever its
-/// slope.
+/// Until two slopes of different sign enclose a minimum, every step lowers the misfit and steps grow where the slope
+/// hardly falls (where no straight line fits, Gauss-Newton alone creeps); from then on they stay inside, by bisection
+/// where the secant is slow.
 KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, Vector2 const &start)
 {
   constexpr int max_iterations = 100; // a dozen to the bracket, 33 halvings of it, and what the secant tries between
@@ -206,14 +202,14 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, 
     double const secant = (next.gradient - now.gradient) / step;
     slow = Math::fabs(next.gradient) > 0.5 * Math::fabs(now.gradient);
     bool const turned = (next.gradient > 0.0) != (now.gradient > 0.0);
-    if (!(next.value < now.value))
+    if (!enclosed && !(next.value < now.value))
     {
       // Beyond the minimum, or beyond a ridge: back, by the secant or by half.
-      if (turned || enclosed)
-        bracket.close(angle + step, now.gradient);
+      if (turned)
+        bracket.add(angle + step, next.gradient);
       curvature = turned && secant > 0.0 ? secant : -2.0 * now.gradient / step;
       stretch = 1.0;
-      slow = slow && enclosed;
+      slow = false;
       continue;
     }
     curvature = secant > least_curvature * next.hessian ? secant : next.hessian;
@@ -237,15 +233,6 @@ KOKKOS_INLINE_FUNCTION bool othersNear(ReconstructionField const &field, CellCom
   return false;
 }
 
-/// Whether a cell lacks neighbours across some face.
-KOKKOS_INLINE_FUNCTION bool atRim(Mesh const &mesh, int cell)
-{
-  bool rim = false;
-  for (int k = 0; k < 4; ++k)
-    rim = rim || mesh.face_neighbour(cell, k) < 0;
-  return rim;
-}
-
 } // namespace Detail
 
 /// A line whose continuation into the vertex neighbours reproduces their volume fractions best, with exact volume in
@@ -255,8 +242,7 @@ KOKKOS_INLINE_FUNCTION bool atRim(Mesh const &mesh, int cell)
 /// least-squares gradient; straight interfaces are exact. Where a third component is near, the inside's fractions and
 /// the outside's tell different stories (a thin void between two bodies has no gradient of its own, but the body
 /// behind it has): both are fitted and the lower misfit wins; where both fits are poor, they start once more from the
-/// fallback. So does a fit in a cell at the mesh's rim that is not exact: there the gradient is one-sided, and where
-/// the line leaves the mesh near a corner it may lead to a line through the cell's other one.
+/// fallback.
 ///
 /// \param polygon  Of the own cell, what is left to divide (unit coordinates).
 /// \param inside, outside Disjoint sets of components that fill the polygon.
@@ -268,16 +254,13 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
                                                          ComponentSet inside, ComponentSet outside,
                                                          Vector2 const &fallback)
 {
-  constexpr double poor_misfit = 1e-2;   // a tenth of a cell
-  constexpr double exact_misfit = 1e-20; // round-off
+  constexpr double poor_misfit = 1e-2; // a tenth of a cell
   LeastSquaresLine best{fallback, 1.0, true};
   bool converged = true;
   double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
   CellNeighbours const neighbours(field, components);
   int const sides = Detail::othersNear(field, components, inside | outside) ? 2 : 1;
-  bool const rim = Detail::atRim(field.mesh, components.cell);
-  int const starts = rim || sides == 2 ? 2 : 1;
-  for (int start = 0; start < starts && best.misfit > (rim ? exact_misfit : poor_misfit); ++start)
+  for (int start = 0; start < sides && best.misfit > poor_misfit; ++start)
     for (int side = 0; side < sides; ++side)
     {
       ComponentSet const set = side == 0 ? inside : outside;

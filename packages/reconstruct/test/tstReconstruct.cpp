@@ -96,26 +96,6 @@ TEST(Reconstruct, straightLinesWithDefaults_areExact)
   EXPECT_LT(worstStraightLine(1e-3, true), 1e-12);
 }
 
-// A line leaves the mesh through its left side, just above a corner of a cell there, in which it cuts off a sliver:
-//
-//   |\    |        neighbours on one side alone, so that their fractions' gradient is tilted towards the other corner.
-//   +-\---+--
-//   |  \  |
-TEST(Reconstruct, sliverInACellAtTheRim_liesInItsOwnCorner)
-{
-  Mesh const mesh = makeMesh(6, 6, 1.0);
-  for (double const volume : {1e-6, 1e-4, 9e-4})
-    for (double degrees = 10.0; degrees < 85.0; degrees += 5.0)
-    {
-      double const slope = std::tan(degrees * Math::pi / 180.0);
-      Plane2 const line = halfPlane(90.0 - degrees, {0.0, 3.0 + std::sqrt(2.0 * volume * slope)});
-      std::vector<Body> const all{{line}, {opposite(line)}};
-      Scene const scene = paint(mesh, bodies(all));
-      Result const result = run(scene, ReconstructionMethod::MomentOfFluid);
-      EXPECT_LT(misplacedVolume(scene, result.regions, all), 1e-12) << volume << ' ' << degrees;
-    }
-}
-
 //   \  void  /          Two materials and void meet at a T, turned by any angle: the half-plane 0, above it the
 //    \ 1    /           quarter-plane 1, void in the rest. Only some orders of removal are exact.
 //  ---T-------
