@@ -11,6 +11,10 @@ namespace Harmos
 /// eight parts, else k-way. Where cells are many, groups that meet at nodes stay together: on a
 /// grid blocks of 2 x 2, 4 x 4 and so on.
 ///
+/// The cut has the least sum of weights over its faces: 13 where the cells on both sides have numbers that follow each
+/// other, else 10. Kernels run over cells in the order of their numbers, so that of cuts of about the same length the
+/// one is taken that leaves runs whole: a square grid is cut between its rows.
+///
 /// \param parts   Number of ranks, 1 or more; more than there are cells leaves ranks empty.
 /// \param weight  Of each cell, >= 0; empty: all the same. Weights balance within 1% where the cells are many.
 /// The seed is fixed: every rank computes the same partition from the same mesh. Nothing else depends on it.

@@ -69,6 +69,46 @@ TEST(PartitionCells, manyCells_areCutNearlyStraightIntoEqualParts)
   }
 }
 
+/// The same cells numbered column by column.
+HostMesh numberedByColumns(HostMesh mesh, int nx, int ny)
+{
+  HostMesh const rows = mesh;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+    {
+      mesh.cell[i * ny + j] = rows.cell[j * nx + i];
+      mesh.face_boundary[i * ny + j] = rows.face_boundary[j * nx + i];
+    }
+  return mesh;
+}
+
+/// Runs of consecutive cells that a rank owns, all ranks together.
+int runs(std::vector<int> const &owner)
+{
+  int count = 1;
+  for (std::size_t c = 1; c < owner.size(); ++c)
+    count += owner[c] != owner[c - 1] ? 1 : 0;
+  return count;
+}
+
+TEST(PartitionCells, square_isCutBetweenRunsOfConsecutiveCells)
+{
+  // in groups or not; a cut across the rows would leave two runs in each of them
+  for (int const n : {80, 512})
+  {
+    HostMesh const by_rows = grid(n, n);
+    EXPECT_LT(runs(partitionCells(by_rows, 2)), n / 4) << n;
+    EXPECT_LT(runs(partitionCells(numberedByColumns(by_rows, n, n), 2)), n / 4) << n;
+  }
+}
+
+TEST(PartitionCells, longRows_areCutWhereTheCutIsShort)
+{
+  HostMesh const mesh = grid(400, 100);
+  EXPECT_LT(facesCut(mesh, partitionCells(mesh, 2)), 115);
+  EXPECT_LT(facesCut(mesh, partitionCells(mesh, 4)), 345);
+}
+
 TEST(PartitionCells, heavyLeftThird_weightsBalanceWithin5Percent)
 {
   HostMesh const mesh = grid(60, 50);
