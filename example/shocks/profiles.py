@@ -60,7 +60,7 @@ def main(results, picture):
     radial(axes[1, 0], results / "sedov", "Sedov, t = 1 s, 120 x 120",
            lambda r: numpy.where(r < 1.0, 6.0 * numpy.interp(r, radius, shape), 1.0), 1.15)
     plate(axes[1, 1], results / "plate_impact")
-    radial(axes[0, 2], results / "noh_spherical", "Noh, spherical about the axis, t = 0.6 s, 100 x 100",
+    radial(axes[0, 2], results / "noh_spherical", "Noh, spherical, t = 0.6 s, 100 x 100",
            lambda r: numpy.where(r < 0.2, 64.0, (1.0 + 0.6 / r) ** 2), 0.4)
     axes[1, 2].remove()
     for a in axes.flat[:5]:
