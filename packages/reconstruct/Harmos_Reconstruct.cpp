@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Reconstruct.hpp>
 
-#include <Harmos_CornerCell.hpp>
 #include <Harmos_RemovalPlan.hpp>
 
 namespace Harmos
@@ -45,10 +44,7 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
   {
     int order[max_components];
     givenOrder(components, options.order, order);
-    RemovalPlan const plan = fixedPlan(field, components, options.method, options.sliver, order);
-    return options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0
-               ? plan
-               : cornerPlan(field, components, options.sliver, plan);
+    return fixedPlan(field, components, options.method, options.sliver, order);
   }
   return components.count > max_exhaustive_components
              ? greedyPlan(field, components, options.sliver)
@@ -101,16 +97,6 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
       region[v] = components.fromUnit(part[v]);
   };
   Region polygon = components.polygon;
-  if (plan.corner)
-  {
-    double const rest = components.volume[1] - plan.void_part;
-    Division const one =
-        divide(polygon, plan.normal[0], components.volume[0] + rest, plan.void_part, components.weight);
-    write(divide(one.inside, plan.normal[1], components.volume[0], rest, components.weight).inside, 0);
-    regions.cut_component(first) = -1;
-    regions.cut_normal(first) = {0.0, 0.0};
-    return status;
-  }
   if (plan.parted)
   {
     double const open[2] = {plan.void_part, components.volume[2] - plan.void_part};

@@ -19,7 +19,7 @@ struct RemovalPlan
   Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
   double error = 0.0;             // the measure that orders are compared by
   int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
-  bool parted = false, corner = false;
+  bool parted = false;
   double void_part = 0.0; // of the cell
 
   KOKKOS_INLINE_FUNCTION void set(int i, int which, Vector2 const &its_normal)
