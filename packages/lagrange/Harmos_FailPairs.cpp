@@ -106,36 +106,33 @@ struct FailFunctor
   }
 };
 
-/// Kinds after fractions have changed; in a view of their own where some do, since others keep the old one.
+/// Kinds after fractions have changed; in a view of their own where some do, since others keep the old one. A cell that
+/// was pure gives its pair the cell's centroid. Those that stay pure keep theirs: whether fractions change elsewhere is
+/// not known on all ranks.
 void updateCellKinds(Mesh const &mesh, PairState const &state, CellMaterialPairs &pairs)
 {
   View<int *> const kind("Harmos::lagrange::cell_kind", mesh.num_cells);
   CellMaterialPairs const p = pairs;
   auto const record = state.record;
+  auto const centroid = state.centroid;
   int changed = 0;
   Kokkos::parallel_reduce(
       "Harmos::lagrange::updateCellKinds", RangePolicy(0, mesh.num_cells),
       KOKKOS_LAMBDA(int cell, int &sum) {
+        int const before = p.cell_kind(cell);
         kind(cell) = cellKind(p, record, cell);
-        sum += kind(cell) != p.cell_kind(cell) ? 1 : 0;
+        if (kind(cell) == before)
+          return;
+        ++sum;
+        if (before != PureCell)
+          return;
+        Vector2 const x = volumeCentroid(cellQuadrilateral(mesh, cell), mesh.geometry);
+        centroid(p.offset(cell), 0) = x[0];
+        centroid(p.offset(cell), 1) = x[1];
       },
       changed);
   if (changed > 0)
     pairs.cell_kind = kind;
-}
-
-/// Before a pure cell becomes mixed: its centroid is the cell's.
-void centrePureCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state)
-{
-  auto const centroid = state.centroid;
-  Kokkos::parallel_for(
-      "Harmos::lagrange::centrePureCells", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        if (pairs.cell_kind(cell) != PureCell)
-          return;
-        Vector2 const x = volumeCentroid(cellQuadrilateral(mesh, cell), mesh.geometry);
-        centroid(pairs.offset(cell), 0) = x[0];
-        centroid(pairs.offset(cell), 1) = x[1];
-      });
 }
 
 } // namespace
@@ -165,10 +162,7 @@ FailureReport failPairs(Mesh const &mesh, Kinematics kinematics, CellMaterialPai
   // The void of a body-fitted cell stays inside of it.
   report.fractions_changed = moved > 0 && kinematics != Kinematics::Lagrangian;
   if (report.fractions_changed)
-  {
-    centrePureCells(mesh, pairs, state);
     updateCellKinds(mesh, state, pairs);
-  }
   return report;
 }
 

@@ -69,6 +69,11 @@ def test_disc_through_plate():
     clean(compare("disc_through_plate/deck.yaml", ranks=(2, 3, 4)))
 
 
+def test_failure_on_one_rank_alone():
+    # The rear wall, still whole, lies on another rank than the bumper.
+    clean(compare("whipple_high/deck.yaml", ranks=(2,)))
+
+
 def test_free_rigid_ball_in_contact_begun_with_the_last_forces():
     clean(compare(HERE / "rigid_ball.yaml", {"numerics/constraint/warm_start": "true"}, ranks=(2, 4)))
 

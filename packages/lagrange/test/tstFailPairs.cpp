@@ -102,6 +102,7 @@ TEST(FailPairs, TensionAboveTheLimit_becomesVoidWithMassAndEnergyKept)
   EXPECT_EQ(kind(0), static_cast<int>(MixedCell));
   EXPECT_EQ(kind(1), static_cast<int>(PureCell));
   EXPECT_DOUBLE_EQ(onHost(s.state.centroid)(0, 0), 0.5);
+  EXPECT_EQ(onHost(s.state.centroid)(1, 0), 0.0); // stays pure: its bits stay, as on a rank without failure
   EXPECT_EQ(r(1, VolumeFraction), 1.0);
 }
 
