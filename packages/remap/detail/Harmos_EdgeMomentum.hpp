@@ -21,16 +21,6 @@ struct PackedCorners
   Pack x[4], y[4];
 };
 
-/// Monotonised central difference of two neighbouring differences: at most `most` times the lesser. Where a part up to
-/// one half of it is taken, 2 keeps what comes of it between the neighbours.
-KOKKOS_FORCEINLINE_FUNCTION Pack limitedDifference(Pack const &upstream, Pack const &downstream, Pack const &most)
-{
-  Pack const central = 0.5 * Math::fabs(upstream + downstream);
-  Pack const bound = most * Math::min(Math::fabs(upstream), Math::fabs(downstream));
-  Pack const size = select(upstream * downstream > Pack(0.0), Math::min(central, bound), Pack(0.0));
-  return select(upstream > Pack(0.0), size, Pack(-size));
-}
-
 /// Two parallel edges of a cell, edge[0] -> edge[1] and edge[2] -> edge[3]. The nodes where they begin share the face
 /// `behind`, those where they end share `ahead`.
 struct EdgePair
@@ -39,38 +29,60 @@ struct EdgePair
   int behind, ahead;
 };
 
-/// What the neighbours of a block's cells give: their faces' swept volumes and outgoing fluxes, column by column as in
-/// the window; zero where they do not count. Velocities one edge beyond the two nodes of each face, in a mixed
-/// neighbour too: its dof nodes go on beyond the rim of the body; mirrored ones beyond a wall along which it slips;
-/// those nodes' own where else the material ends at the face: then the limited difference is zero.
+/// What the neighbours of a block's cells give: what their faces sweep out of them, and the outgoing fluxes, column by
+/// column as in the window; zero where they do not count. Velocities one edge beyond the two nodes of each face, in a
+/// mixed neighbour too: its dof nodes go on beyond the rim of the body; mirrored ones beyond a wall along which it
+/// slips; those nodes' own where else the material ends at the face: then the limited difference is zero.
 struct Neighbours
 {
-  double const *face[4];
-  Pack velocity_x[4][2], velocity_y[4][2];
+  double const *swept[4];
+  double const *flux[4];        // of the first field
+  double const *velocity[4][2]; // columns of x and y
 
-  KOKKOS_FORCEINLINE_FUNCTION Pack load(int k, int column) const { return loadPack(face[k] + column * column_stride); }
+  KOKKOS_FORCEINLINE_FUNCTION Pack velocityBeyond(int k, int i, int axis) const
+  {
+    return loadPack(velocity[k][i] + axis * column_stride);
+  }
 };
 
-/// Momentum along one edge a -> b: the upwind velocity v_f at the face between them goes with the mass G.
-/// \param heat_a, heat_b Where not null: the kinetic energy that comes with it, as seen from the node, is added,
-/// G (v_f - v)^2 / 2 where it arrives, less than nothing where it leaves.
-KOKKOS_FORCEINLINE_FUNCTION void transfer(LaneMask const &forward, Pack const &flow, Pack const &part, Pack const &most,
-                                          Pack const &va, Pack const &vb, Pack const &beyond, Pack &gain_a,
-                                          Pack &gain_b, Pack *heat_a = nullptr, Pack *heat_b = nullptr)
+/// What an edge a -> b carries.
+struct EdgeFlow
 {
-  Pack const up = select(forward, va, vb);
-  Pack const down = select(forward, vb, va);
-  Pack const face = up + part * limitedDifference(up - beyond, down - up, most);
-  Pack const to_down = flow * (face - down);
-  Pack const to_up = flow * (up - face);
-  gain_a += select(forward, to_up, to_down);
-  gain_b += select(forward, to_down, to_up);
+  Pack mass; // from a to b, of either sign
+  LaneMask forward;
+  Pack weight; // of the two differences in their mean, and what of the limited one is taken (edgeFlow)
+  Pack part;
+};
+
+/// \param reach From the node upstream to where the velocity goes with the mass, as a part of the edge; not negative.
+/// The monotonised central difference of two neighbouring ones, their mean but at most `most` times the lesser, is
+/// taken `reach` times: between the nodes it stays with most = min(2, 1 / reach). Here both are divided by `most`.
+KOKKOS_FORCEINLINE_FUNCTION EdgeFlow edgeFlow(Pack const &mass, Pack const &reach)
+{
+  return {mass, mass > Pack(0.0), 0.5 * Math::max(reach, Pack(0.5)), Math::min(Pack(2.0 * reach), Pack(1.0))};
+}
+
+/// Momentum along an edge: the mass G leaves a and reaches b with the upwind velocity v_f, so that they gain
+/// -G (v_f - v_a) and G (v_f - v_b). \param behind, ahead Velocities one edge beyond a and b.
+/// \param heat_a, heat_b Where not null: the kinetic energy that comes with it, as seen from the node, is added:
+/// -G (v_f - v_a)^2 / 2 and G (v_f - v_b)^2 / 2, less than nothing where it leaves.
+KOKKOS_FORCEINLINE_FUNCTION void transfer(EdgeFlow const &flow, Pack const &va, Pack const &vb, Pack const &behind,
+                                          Pack const &ahead, Pack &gain_a, Pack &gain_b, Pack *heat_a = nullptr,
+                                          Pack *heat_b = nullptr)
+{
+  Pack const difference = vb - va;
+  Pack const upstream = select(flow.forward, va - behind, ahead - vb);
+  Pack const mean = flow.weight * (upstream + difference);
+  Pack const most = Math::max(Math::min(upstream, difference), Pack(0.0)); // both zero where the signs differ
+  Pack const least = Math::min(Math::max(upstream, difference), Pack(0.0));
+  Pack const limited = flow.part * Math::max(least, Math::min(mean, most));
+  Pack const from_a = select(flow.forward, limited, Pack(difference - limited)), from_b = from_a - difference;
+  gain_a -= flow.mass * from_a;
+  gain_b += flow.mass * from_b;
   if (heat_a == nullptr)
     return;
-  Pack const arrives = 0.5 * to_down * (face - down);
-  Pack const leaves = 0.5 * to_up * (face - up);
-  *heat_a += select(forward, leaves, arrives);
-  *heat_b += select(forward, arrives, leaves);
+  *heat_a -= 0.5 * flow.mass * (from_a * from_a);
+  *heat_b += 0.5 * flow.mass * (from_b * from_b);
 }
 
 /// \param heat Of the corners (transfer), or null.
@@ -78,19 +90,19 @@ KOKKOS_FORCEINLINE_FUNCTION void advect(Pack const &G, Pack const &per_mass, Edg
                                         Neighbours const &beyond, PackedCorners const &v, PackedCorners &gain,
                                         Pack *heat = nullptr)
 {
-  auto const forward = G > Pack(0.0);
-  Pack const flow = Math::fabs(G);
-  Pack const part = 0.5 * (1.0 - Math::min(Pack(1.0), Pack(2.0 * flow * per_mass)));
+  // edgeFlow(G, (1 - min(1, 2 |G| / mass)) / 2), which is at most half-way
+  EdgeFlow const flow = {G, G > Pack(0.0), 0.25, 1.0 - Math::min(Pack(1.0), Pack(2.0 * Math::fabs(G) * per_mass))};
+  HARMOS_UNROLL
   for (int e = 0; e < 2; ++e)
   {
     int const a = edges.edge[2 * e], b = edges.edge[2 * e + 1];
     int const i = a == edges.behind ? 0 : 1, j = b == edges.ahead ? 0 : 1;
-    Pack const beyond_x = select(forward, beyond.velocity_x[edges.behind][i], beyond.velocity_x[edges.ahead][j]);
-    Pack const beyond_y = select(forward, beyond.velocity_y[edges.behind][i], beyond.velocity_y[edges.ahead][j]);
     Pack *const heat_a = heat == nullptr ? nullptr : heat + a;
     Pack *const heat_b = heat == nullptr ? nullptr : heat + b;
-    transfer(forward, flow, part, 2.0, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b], heat_a, heat_b);
-    transfer(forward, flow, part, 2.0, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b], heat_a, heat_b);
+    transfer(flow, v.x[a], v.x[b], beyond.velocityBeyond(edges.behind, i, 0), beyond.velocityBeyond(edges.ahead, j, 0),
+             gain.x[a], gain.x[b], heat_a, heat_b);
+    transfer(flow, v.y[a], v.y[b], beyond.velocityBeyond(edges.behind, i, 1), beyond.velocityBeyond(edges.ahead, j, 1),
+             gain.y[a], gain.y[b], heat_a, heat_b);
   }
 }
 
@@ -134,18 +146,14 @@ HARMOS_RARE_FUNCTION inline void advectShares(Pack const radius[4], Pack const s
   for (int a = 0; a < 4; ++a)
   {
     int const b = (a + 1) & 3, behind = (a + 3) & 3; // beyond b lies face b
-    auto const forward = flow[a] > Pack(0.0);
-    Pack const amount = Math::fabs(flow[a]);
-    Pack const crossed = amount * per_mass / (share[a] + share[b]);
+    Pack const crossed = Math::fabs(flow[a]) * per_mass / (share[a] + share[b]);
     Pack const balance = balancePoint(radius[a], radius[b]);
-    Pack const upstream = select(forward, balance, Pack(1.0 - balance));
-    Pack const part = Math::max(upstream - 0.5 * Math::min(Pack(1.0), crossed), Pack(0.0));
-    Pack const most =
-        1.0 / Math::max(part, Pack(0.5)); // beyond half-way: so that the velocity stays between the nodes'
-    Pack const beyond_x = select(forward, beyond.velocity_x[behind][1], beyond.velocity_x[b][0]);
-    Pack const beyond_y = select(forward, beyond.velocity_y[behind][1], beyond.velocity_y[b][0]);
-    transfer(forward, amount, part, most, v.x[a], v.x[b], beyond_x, gain.x[a], gain.x[b], heat + a, heat + b);
-    transfer(forward, amount, part, most, v.y[a], v.y[b], beyond_y, gain.y[a], gain.y[b], heat + a, heat + b);
+    Pack const upstream = select(flow[a] > Pack(0.0), balance, Pack(1.0 - balance));
+    EdgeFlow const along = edgeFlow(flow[a], Math::max(upstream - 0.5 * Math::min(Pack(1.0), crossed), Pack(0.0)));
+    transfer(along, v.x[a], v.x[b], beyond.velocityBeyond(behind, 1, 0), beyond.velocityBeyond(b, 0, 0), gain.x[a],
+             gain.x[b], heat + a, heat + b);
+    transfer(along, v.y[a], v.y[b], beyond.velocityBeyond(behind, 1, 1), beyond.velocityBeyond(b, 0, 1), gain.y[a],
+             gain.y[b], heat + a, heat + b);
   }
 }
 

@@ -12,19 +12,22 @@ namespace RemapDetail
 namespace
 {
 
-/// What faces take out of the cells of a block, face by face, of those through which any leaves.
-///
-/// Loops run over the faces' numbers: in one over those at work a face's place would hang on the block's other cells,
-/// so on the ranks, and with it which products the compiler rounds by themselves.
+/// What leaves the cells of a block, by slots (SweptColumn). The second slot of opposite faces is seldom in use, and
+/// empty for a cell that does not need it: it adds nothing there, so that no result hangs on the block's other cells.
 struct Outflow
 {
-  int leaves;      // LeaveBit
-  double *face[4]; // columns
+  int block;      // SweptBlock
+  double *column; // of the first flux
   Pack volume[4];
   Pack x[4], y[4]; // swept centroids from the cell's; zero where nothing leaves
+  Pack side[2];    // 1 where it is face 1 or 2 that things leave through, -1 for face 3 or 0
   Pack staying, moved_volume;
 
-  KOKKOS_FORCEINLINE_FUNCTION bool takes(int k) const { return (leaves & LeaveBit << k) != 0; }
+  KOKKOS_FORCEINLINE_FUNCTION bool takes(int slot) const { return slot < 2 || (block & SecondBit << (slot - 2)) != 0; }
+  KOKKOS_FORCEINLINE_FUNCTION void store(int slot, int field, Pack const &flux) const
+  {
+    storePack(column + (num_face_columns * slot + field) * column_stride, flux);
+  }
 };
 
 /// The centroids and fields beyond the faces, column by column as in the window; the cell's own where what is there
@@ -141,7 +144,7 @@ struct SweptFluxFunctor
     return Math::max(part, Pack(0.0));
   }
 
-  /// The deviations from the mean at the faces.
+  /// The deviations from the mean in what leaves.
   KOKKOS_FORCEINLINE_FUNCTION static void deviate(Field const &f, Outflow const &out, Pack (&deviation)[4])
   {
     HARMOS_UNROLL
@@ -206,17 +209,28 @@ struct SweptFluxFunctor
   KOKKOS_FORCEINLINE_FUNCTION Outflow outflow(int first, int block) const
   {
     Outflow out;
-    out.leaves = block & all_leave_bits;
-    out.moved_volume = out.staying = loadPack(stage.at(MovedVolume, first));
+    out.block = block;
+    double *const own = stage.at(0, first);
+    out.column = own + (FaceColumn + 1) * column_stride;
+    out.moved_volume = out.staying = loadPack(own + MovedVolume * column_stride);
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
       if (!out.takes(k))
         continue;
-      out.face[k] = stage.at(FaceColumn + num_face_columns * k, first);
-      out.volume[k] = loadPack(out.face[k]);
-      out.x[k] = loadPack(stage.at(OffsetColumn + 2 * k, first));
-      out.y[k] = loadPack(stage.at(OffsetColumn + 2 * k + 1, first));
+      int const axis = k & 1;
+      Pack const volume = loadPack(own + (FaceColumn + num_face_columns * axis) * column_stride);
+      Pack const opposite = loadPack(own + (FaceColumn + num_face_columns * (axis + 2)) * column_stride);
+      if (k < 2)
+      {
+        auto const leaves = volume > Pack(0.0);
+        out.volume[k] = select(leaves, volume, opposite);
+        out.side[k] = select(leaves, Pack(2.0 * k - 1.0), Pack(1.0 - 2.0 * k));
+      }
+      else
+        out.volume[k] = Math::max(-opposite, Pack(0.0));
+      out.x[k] = loadPack(own + (OffsetColumn + 2 * k) * column_stride);
+      out.y[k] = loadPack(own + (OffsetColumn + 2 * k + 1) * column_stride);
       out.staying = out.staying - out.volume[k];
     }
     return out;
@@ -281,15 +295,16 @@ struct SweptFluxFunctor
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
       if (out.takes(k))
-        storePack(out.face[k] + (1 + field) * column_stride, weight[k] * (q + part * deviation[k]));
+        out.store(k, field, weight[k] * (q + part * deviation[k]));
   }
 
   /// From the swept centroids to those of the mass in what is swept, as seen from the cell's: with density rho + g . x
   /// a region of central second moments S (over its volume) has its mass S g / rho off. S = (a a^T + b b^T) / 12 with
   /// the mid-lines a, b of the cell, (d - 2 x) in place of the one across a face, whose outward mid-line is d, for what
-  /// passes through it (exact on parallelograms). \param part Of the gradient of f, the density.
+  /// passes through it (exact on parallelograms). \param part Of the gradient of f, the density. \param per_density
+  /// Volume over mass of what leaves, or zero.
   KOKKOS_FORCEINLINE_FUNCTION static void moveToMassCentroids(Beyond const &offset, Field const &f, Pack const &part,
-                                                              Pack const (&mass)[4], Outflow &out)
+                                                              Pack const (&per_density)[4], Outflow &out)
   {
     Pack const gx = (part / 12.0) * f.gradient_x, gy = (part / 12.0) * f.gradient_y;
     Pack line_x[2], line_y[2], along[2]; // from face 0 to 2, from 3 to 1
@@ -304,20 +319,20 @@ struct SweptFluxFunctor
       line_y[i] = select(both, Pack(0.5 * y), y);
       along[i] = line_x[i] * gx + line_y[i] * gy;
     }
-    Pack const per_density = 1.0 / f.q;
-    Pack const cell_x = per_density * (along[0] * line_x[0] + along[1] * line_x[1]);
-    Pack const cell_y = per_density * (along[0] * line_y[0] + along[1] * line_y[1]);
+    Pack const per_mean = 1.0 / f.q;
+    Pack const cell_x = per_mean * (along[0] * line_x[0] + along[1] * line_x[1]);
+    Pack const cell_y = per_mean * (along[0] * line_y[0] + along[1] * line_y[1]);
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
       if (!out.takes(k))
         continue;
       int const across = k & 1;
-      double const sign = k == 1 || k == 2 ? 1.0 : -1.0;
+      Pack const sign = k < 2 ? out.side[k] : Pack(k == 2 ? 1.0 : -1.0);
       Pack const x = sign * line_x[across] - 2.0 * out.x[k], y = sign * line_y[across] - 2.0 * out.y[k];
       Pack const through = x * gx + y * gy;
-      auto const some = mass[k] > Pack(0.0);
-      Pack const per_swept = select(some, Pack(out.volume[k] / select(some, mass[k], Pack(1.0))), Pack(0.0));
+      Pack const per_swept = per_density[k];
+      auto const some = per_swept > Pack(0.0);
       out.x[k] = select(some, out.x[k] + per_swept * (through * x + along[1 - across] * line_x[1 - across]) - cell_x,
                         Pack(0.0));
       out.y[k] = select(some, out.y[k] + per_swept * (through * y + along[1 - across] * line_y[1 - across]) - cell_y,
@@ -328,11 +343,11 @@ struct SweptFluxFunctor
   /// The fluxes of thermodynamic volume, mass times specific volume s. What is linear is its ratio theta = rho s to the
   /// volume that it fills: where theta is one in the cell and around, what a face takes is the volume that it sweeps,
   /// and pure cells keep s = volume / mass however steep the density is. Bounds are those of s.
-  /// \param density Of the cells, and beyond the faces.
+  /// \param density Of the cells, and beyond the faces. \param per_density Volume over mass of what leaves, or zero.
   KOKKOS_FORCEINLINE_FUNCTION void remapSpecificVolume(int first, Directions const &directions, Beyond const &offset,
                                                        Columns const &columns, Outflow const &out, Field const &density,
                                                        Pack const (&density_beyond)[4], Pack const (&mass)[4],
-                                                       Pack const &per_mass) const
+                                                       Pack const (&per_density)[4], Pack const &per_mass) const
   {
     Pack p[4], theta[4], deviation[4] = {0.0, 0.0, 0.0, 0.0};
     Beyond inside = offset;
@@ -362,8 +377,7 @@ struct SweptFluxFunctor
       Pack ratio = t.q + part * (out.x[k] * t.gradient_x + out.y[k] * t.gradient_y);
       if constexpr (limiter == RemapLimiter::Range || limiter == RemapLimiter::RangeInside)
         ratio = Math::max(t.lower, Math::min(ratio, t.upper));
-      auto const some = mass[k] > Pack(0.0);
-      deviation[k] = select(some, out.volume[k] * ratio / select(some, mass[k], Pack(1.0)) - f.q, Pack(0.0));
+      deviation[k] = select(per_density[k] > Pack(0.0), per_density[k] * ratio - f.q, Pack(0.0));
     }
     Pack left = 1.0;
     if constexpr (limiter == RemapLimiter::Range || limiter == RemapLimiter::RangeInside)
@@ -371,7 +385,7 @@ struct SweptFluxFunctor
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
       if (out.takes(k))
-        storePack(out.face[k] + (1 + SpecificVolume) * column_stride, mass[k] * (f.q + left * deviation[k]));
+        out.store(k, SpecificVolume, mass[k] * (f.q + left * deviation[k]));
   }
 
   KOKKOS_FORCEINLINE_FUNCTION static Beyond offsets(int block, Columns const &columns)
@@ -391,7 +405,7 @@ struct SweptFluxFunctor
   {
     int const first = begin + number * pack_width;
     int const block = stage.blockOf(first);
-    if ((block & all_leave_bits) == 0)
+    if ((block & LeaveBit) == 0)
       return;
     GatheredColumns gathered;
     Columns const columns = columnsBeyond(first, block, gathered);
@@ -404,7 +418,7 @@ struct SweptFluxFunctor
     auto const remains = out.staying > Pack(0.0);
     Pack const per_volume = select(remains, Pack(1.0 / select(remains, out.staying, Pack(1.0))), Pack(0.0));
     Pack density[4], whole[4] = {0.0, 0.0, 0.0, 0.0}, deviation[4] = {0.0, 0.0, 0.0, 0.0};
-    Pack mass[4] = {0.0, 0.0, 0.0, 0.0};
+    Pack mass[4] = {0.0, 0.0, 0.0, 0.0}, per_density[4] = {0.0, 0.0, 0.0, 0.0};
     Field const f = fieldOf(first, DensityField, directions, offset, columns, density);
     Pack const rho = f.q;
     deviate(f, out, whole);
@@ -421,16 +435,18 @@ struct SweptFluxFunctor
       if (!out.takes(k))
         continue;
       mass[k] = out.volume[k] * (rho + left * deviation[k]);
-      storePack(out.face[k] + (1 + DensityField) * column_stride, mass[k]);
+      out.store(k, DensityField, mass[k]);
       staying_mass -= mass[k];
+      auto const some = mass[k] > Pack(0.0);
+      per_density[k] = select(some, out.volume[k], Pack(0.0)) / select(some, mass[k], Pack(1.0));
     }
 
     // What goes by volume next: the mass fluxes are the end of a long chain, which it hides.
     for (int field = DeviatorXX; field < num_pair_fields; ++field)
       remapField(first, field, directions, offset, columns, out, out.volume, per_volume);
     Pack const per_mass = 1.0 / staying_mass;
-    remapSpecificVolume(first, directions, offset, columns, out, f, density, mass, per_mass);
-    moveToMassCentroids(offset, f, part, mass, out);
+    remapSpecificVolume(first, directions, offset, columns, out, f, density, mass, per_density, per_mass);
+    moveToMassCentroids(offset, f, part, per_density, out);
     if (stage.carries())
       remapField(first, KineticField, directions, offset, columns, out, mass, per_mass);
     for (int field = SpecificVolume + 1; field < DeviatorXX; ++field)

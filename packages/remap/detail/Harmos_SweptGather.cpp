@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_SweptStage.hpp>
 
-#include <Harmos_LoadPoints.hpp>
 #include <Harmos_Prefetch.hpp>
 #include <Harmos_Select.hpp>
-#include <detail/Harmos_EdgeMomentum.hpp>
 #include <detail/Harmos_FieldPack.hpp>
+#include <detail/Harmos_NeighbourFaces.hpp>
 
 namespace Harmos
 {
@@ -15,13 +14,14 @@ namespace RemapDetail
 namespace
 {
 
-/// The columns of a face, then x, y of the two velocities; those of face k from lane pack_width k on.
-using GatheredFaces = double[num_face_columns + 4][column_stride];
-
-struct SweptGatherFunctor
+struct SweptGatherFunctor : NeighbourFaces
 {
-  SweptStage stage;
   int begin, end;
+
+  SweptGatherFunctor(SweptStage const &swept_stage, int first, int last)
+      : NeighbourFaces{swept_stage}, begin(first), end(last)
+  {
+  }
 
   /// The cells of a block. Those that are not pure repeat one that is.
   struct Block
@@ -36,11 +36,11 @@ struct SweptGatherFunctor
   /// What the cells exchange with their neighbours.
   struct Exchanged
   {
-    LaneMask enters[4]; // something does, through each face
-    int entering;       // 1 << k: through face k of some cell
-    Pack outflow[4];    // mass that leaves through each face
-    Pack volume;        // after
-    Pack flow;          // zero where nothing moves
+    double const *entering[2]; // fluxes into the cells through face 0 or 2, through 1 or 3; of the first field
+    LaneMask enters[2];        // where they count
+    Pack outflow[4];           // mass that leaves through each face
+    Pack volume;               // after
+    Pack flow;                 // zero where nothing moves
   };
 
   KOKKOS_FORCEINLINE_FUNCTION static Pack own(Block const &block, int column)
@@ -48,148 +48,40 @@ struct SweptGatherFunctor
     return loadPack(block.own + column * column_stride);
   }
 
-  /// Lane by lane, where the neighbours beyond a face are no run of cells, in the order of the faces.
-  HARMOS_RARE_FUNCTION void gatherFace(Block const &block, int k, GatheredFaces &gathered) const
-  {
-    for (int i = 0; i < pack_width; ++i)
-    {
-      int const cell = block.cell[i], lane = k * pack_width + i;
-      bool const same = stage.sameBeyond(cell, k);
-      int const face = same ? stage.face_neighbour(cell, k) : 4 * cell + k;
-      double const *column = stage.at(FaceColumn + num_face_columns * (face & 3), face >> 2);
-      for (int c = 0; c < num_face_columns; ++c, column += column_stride)
-        gathered[c][lane] = same ? *column : 0.0;
-      int const mixed = same || !stage.second_order ? -1 : mixedPairBeyond(cell, k);
-      if (mixed >= 0)
-      {
-        gatherMixed(mixed, stage.face_neighbour(cell, k), lane, gathered);
-        continue;
-      }
-      bool const goes_beyond = same && stage.second_order;
-      int const from = goes_beyond ? face >> 2 : cell;
-      bool const ends = !same && stage.second_order && stage.face_neighbour(cell, k) < 0;
-      for (int j = 0; j < 2; ++j)
-      {
-        if (ends && mirrorBeyond(cell, k, j, lane, gathered))
-          continue;
-        double const *velocity = stage.at(velocityColumn(face, k, j, goes_beyond), from);
-        gathered[num_face_columns + 2 * j][lane] = velocity[0];
-        gathered[num_face_columns + 2 * j + 1][lane] = velocity[column_stride];
-      }
-    }
-  }
-
-  /// The same where they are a run of cells on two tiles.
-  HARMOS_RARE_FUNCTION void joinFace(int first, int k, GatheredFaces &gathered) const
-  {
-    int const face = stage.face_neighbour(first, k), rows = stage.rowsLeft(face >> 2);
-    double const *const begin = stage.at(0, face >> 2), *const rest = stage.at(0, (face >> 2) + rows);
-    double *const joined = &gathered[0][k * pack_width];
-    int const columns = (FaceColumn + num_face_columns * (face & 3)) * column_stride;
-    joinColumns(begin + columns, rest + columns, rows, num_face_columns, joined);
-    bool const goes_beyond = stage.second_order;
-    for (int i = 0; i < 2; ++i)
-    {
-      int const column = velocityColumn(face, k, i, goes_beyond) * column_stride;
-      double *const velocity = joined + (num_face_columns + 2 * i) * column_stride;
-      if (goes_beyond)
-        joinColumns(begin + column, rest + column, rows, 2, velocity);
-      else
-        joinColumns(stage.at(0, first) + column, stage.at(0, first) + column, 0, 2, velocity);
-    }
-  }
-
-  /// The pair of a pure cell's material in a mixed cell beyond a face; -1: none.
-  KOKKOS_INLINE_FUNCTION int mixedPairBeyond(int cell, int k) const
-  {
-    int const neighbour = stage.face_neighbour(cell, k) >> 2;
-    if (neighbour < 0)
-      return -1;
-    for (int pair = stage.first_pair[neighbour]; pair < stage.first_pair[neighbour + 1]; ++pair)
-      if (stage.pair_material[pair] == stage.pure_material[cell])
-        return pair;
-    return -1;
-  }
-
-  /// Beyond a wall at rest along which the node k + i of face k slips: the velocity of the node behind it, mirrored, so
-  /// that what grows from zero away from the wall keeps its slope there. \return false: no such wall.
-  KOKKOS_INLINE_FUNCTION bool mirrorBeyond(int cell, int k, int i, int lane, GatheredFaces &gathered) const
-  {
-    int const a = stage.cell_node(cell, k), b = stage.cell_node(cell, (k + 1) & 3);
-    int const condition = stage.node_condition[i == 0 ? a : b];
-    if (condition < 0)
-      return false;
-    Vector2 const along =
-        normalised(Vector2{stage.position(b, 0) - stage.position(a, 0), stage.position(b, 1) - stage.position(a, 1)});
-    Vector2 const normal{along[1], -along[0]};
-    NodeCondition const &wall = stage.condition[condition];
-    bool slips = false;
-    for (int j = 0; j < wall.count; ++j)
-      slips = slips || (wall.value[j] == 0.0 && Math::fabs(cross(wall.normal[j], normal)) < 1e-12);
-    if (!slips)
-      return false;
-    int const inner = i == 0 ? (k + 3) & 3 : (k + 2) & 3;
-    double const *velocity = stage.at(CornerColumn + 2 * inner, cell);
-    Vector2 const v{velocity[0], velocity[column_stride]};
-    Vector2 const mirrored = v - (2.0 * dot(v, normal)) * normal;
-    gathered[num_face_columns + 2 * i][lane] = mirrored[0];
-    gathered[num_face_columns + 2 * i + 1][lane] = mirrored[1];
-    return true;
-  }
-
-  KOKKOS_INLINE_FUNCTION void gatherMixed(int pair, int face, int lane, GatheredFaces &gathered) const
-  {
-    for (int i = 0; i < 2; ++i)
-    {
-      int const dof = stage.dof_node(pair, beyondCorner(face, i));
-      gathered[num_face_columns + 2 * i][lane] = stage.half(dof, 0);
-      gathered[num_face_columns + 2 * i + 1][lane] = stage.half(dof, 1);
-    }
-  }
-
-  /// Corner of the neighbour at its face f, beyond our node k + i of face k. Our node k is its f + 1, beyond it f + 2;
-  /// our k + 1 is its f, beyond it f + 3.
-  KOKKOS_FORCEINLINE_FUNCTION static int beyondCorner(int face, int i) { return (face + 2 + i) & 3; }
-
-  /// Of the velocity beyond our node k + i of face k, or of that node's own.
-  KOKKOS_FORCEINLINE_FUNCTION static int velocityColumn(int face, int k, int i, bool goes_beyond)
-  {
-    return CornerColumn + 2 * (goes_beyond ? beyondCorner(face, i) : (k + i) & 3);
-  }
-
   KOKKOS_FORCEINLINE_FUNCTION void findNeighbours(Block const &block, Neighbours &beyond, GatheredFaces &gathered) const
   {
     HARMOS_UNROLL
     for (int k = 0; k < 4; ++k)
     {
-      double const *velocity[2];
-      if ((block.bits & RunBit << k) != 0)
+      bool in_run = (block.bits & RunBit << k) != 0;
+      if (in_run)
       {
         int const face = stage.face_neighbour(block.first, k);
         double const *const cell = stage.at(0, face >> 2);
-        beyond.face[k] = cell + (FaceColumn + num_face_columns * (face & 3)) * column_stride;
+        beyond.swept[k] = cell + sweptColumn(face) * column_stride;
+        beyond.flux[k] = cell + fluxColumn(face) * column_stride;
         double const *const from = stage.second_order ? cell : block.own;
         for (int i = 0; i < 2; ++i)
-          velocity[i] = from + velocityColumn(face, k, i, stage.second_order) * column_stride;
+          beyond.velocity[k][i] = from + velocityColumn(face, k, i, stage.second_order) * column_stride;
+        in_run = !any(loadPack(beyond.swept[k]) < Pack(0.0));
       }
-      else
+      if (in_run)
+        continue;
+      bool gathers = true;
+      if ((block.bits & AcrossBit << k) != 0)
       {
-        if ((block.bits & AcrossBit << k) != 0)
-          joinFace(block.first, k, gathered);
-        else
-        {
-          Block const copy = block; // what a call sees would leave its registers for all blocks
-          gatherFace(copy, k, gathered);
-        }
-        beyond.face[k] = &gathered[0][k * pack_width];
-        for (int i = 0; i < 2; ++i)
-          velocity[i] = &gathered[num_face_columns + 2 * i][k * pack_width];
+        joinFace(block.first, k, gathered);
+        gathers = any(loadPack(&gathered[0][k * pack_width]) < Pack(0.0));
       }
+      if (gathers)
+      {
+        Block const copy = block; // what a call sees would leave its registers for all blocks
+        gatherFace(copy.cell, k, gathered);
+      }
+      beyond.swept[k] = &gathered[0][k * pack_width];
+      beyond.flux[k] = &gathered[1][k * pack_width];
       for (int i = 0; i < 2; ++i)
-      {
-        beyond.velocity_x[k][i] = loadPack(velocity[i]);
-        beyond.velocity_y[k][i] = loadPack(velocity[i] + column_stride);
-      }
+        beyond.velocity[k][i] = &gathered[num_face_columns + 2 * i][k * pack_width];
     }
   }
 
@@ -204,53 +96,92 @@ struct SweptGatherFunctor
       visit(f);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION static bool leaves(Block const &block, int k)
+  KOKKOS_FORCEINLINE_FUNCTION static bool leaves(Block const &block) { return (block.bits & LeaveBit) != 0; }
+  KOKKOS_FORCEINLINE_FUNCTION static bool leavesTwice(Block const &block, int i)
   {
-    return (block.bits & LeaveBit << k) != 0;
+    return (block.bits & SecondBit << i) != 0;
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static Pack ownFlux(Block const &block, int slot, int field)
+  {
+    return own(block, FaceColumn + 1 + num_face_columns * slot + field);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION static Exchanged exchange(Block const &block, Neighbours const &beyond)
+  /// What enters through two opposite faces, of all fields.
+  HARMOS_RARE_FUNCTION static void addFluxes(double const *one, double const *one_swept, double const *other,
+                                             double const *other_swept, double *sum)
+  {
+    auto const enters = loadPack(one_swept) > Pack(0.0), enters_other = loadPack(other_swept) > Pack(0.0);
+    for (int f = 0; f < num_pair_fields; ++f)
+    {
+      int const column = f * column_stride;
+      storePack(sum + column, select(enters, loadPack(one + column), Pack(0.0)) +
+                                  select(enters_other, loadPack(other + column), Pack(0.0)));
+    }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION static Exchanged exchange(Block const &block, Neighbours const &beyond,
+                                                        GatheredFaces &gathered)
   {
     Exchanged e;
     e.volume = own(block, MovedVolume);
     e.flow = 0.0;
-    e.entering = 0;
     HARMOS_UNROLL
-    for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 2; ++i)
     {
-      e.outflow[k] = 0.0;
-      int const face = FaceColumn + num_face_columns * k;
-      if (leaves(block, k))
+      e.outflow[i] = e.outflow[i + 2] = 0.0;
+      if (leaves(block))
       {
-        Pack const volume = own(block, face);
-        e.flow += volume;
-        e.volume -= volume;
-        e.outflow[k] = own(block, face + 1 + DensityField);
+        Pack const one = own(block, FaceColumn + num_face_columns * i);
+        Pack const other = Math::fabs(own(block, FaceColumn + num_face_columns * (i + 2)));
+        auto const leaves_one = one > Pack(0.0);
+        e.flow += one + other;
+        e.volume -= one;
+        e.volume -= other;
+        Pack const mass = ownFlux(block, i, DensityField);
+        e.outflow[i] = select(leaves_one, mass, Pack(0.0));
+        e.outflow[i + 2] = select(leaves_one, Pack(0.0), mass);
+        if (leavesTwice(block, i))
+          e.outflow[i + 2] += ownFlux(block, i + 2, DensityField);
       }
-      Pack const swept = beyond.load(k, 0);
-      e.enters[k] = swept > Pack(0.0);
-      if (!any(e.enters[k]))
-        continue;
-      e.entering |= 1 << k;
-      e.flow += swept;
-      e.volume += swept;
-      e.outflow[k] -= select(e.enters[k], beyond.load(k, 1 + DensityField), Pack(0.0));
+      bool enters[2];
+      LaneMask mask[2];
+      HARMOS_UNROLL
+      for (int j = 0; j < 2; ++j)
+      {
+        int const k = i + 2 * j;
+        Pack const swept = loadPack(beyond.swept[k]);
+        mask[j] = swept > Pack(0.0);
+        enters[j] = any(mask[j]);
+        e.flow += swept;
+        e.volume += swept;
+        e.outflow[k] -= select(mask[j], loadPack(beyond.flux[k] + DensityField * column_stride), Pack(0.0));
+      }
+      int const from = enters[1] ? i + 2 : i;
+      e.entering[i] = beyond.flux[from];
+      e.enters[i] = enters[1] ? mask[1] : mask[0];
+      if (enters[0] && enters[1])
+      {
+        double *const sum = &gathered[0][(4 + i) * pack_width];
+        addFluxes(beyond.flux[i], beyond.swept[i], beyond.flux[i + 2], beyond.swept[i + 2], sum);
+        e.entering[i] = sum;
+        e.enters[i] = Pack(0.0) == Pack(0.0);
+      }
     }
     return e;
   }
 
   /// What all fluxes bring of a field.
-  KOKKOS_FORCEINLINE_FUNCTION static Pack changeOf(int field, Block const &block, Neighbours const &beyond,
-                                                   Exchanged const &e)
+  KOKKOS_FORCEINLINE_FUNCTION static Pack changeOf(int field, Block const &block, Exchanged const &e)
   {
     Pack change = 0.0;
     HARMOS_UNROLL
-    for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 2; ++i)
     {
-      if (leaves(block, k))
-        change -= own(block, FaceColumn + num_face_columns * k + 1 + field);
-      if ((e.entering & 1 << k) != 0)
-        change += select(e.enters[k], beyond.load(k, 1 + field), Pack(0.0));
+      if (leaves(block))
+        change -= ownFlux(block, i, field);
+      if (leavesTwice(block, i))
+        change -= ownFlux(block, i + 2, field);
+      change += select(e.enters[i], loadPack(e.entering[i] + field * column_stride), Pack(0.0));
     }
     return change;
   }
@@ -284,8 +215,8 @@ struct SweptGatherFunctor
     } while (left != 0u);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void newRecords(Block const &block, Neighbours const &beyond, Exchanged const &e,
-                                              Pack const &mass, Pack const &mass1) const
+  KOKKOS_FORCEINLINE_FUNCTION void newRecords(Block const &block, Exchanged const &e, Pack const &mass,
+                                              Pack const &mass1) const
   {
     Pack const moved_volume = own(block, MovedVolume);
     Pack const per_mass = 1.0 / mass1, per_volume = 1.0 / e.volume;
@@ -294,7 +225,7 @@ struct SweptGatherFunctor
         [&](int f)
         {
           bool const by_volume = f >= DeviatorXX;
-          q[f] = ((by_volume ? moved_volume : mass) * own(block, FieldColumn + f) + changeOf(f, block, beyond, e)) *
+          q[f] = ((by_volume ? moved_volume : mass) * own(block, FieldColumn + f) + changeOf(f, block, e)) *
                  (by_volume ? per_volume : per_mass);
         });
     returnAllToYield(block, q);
@@ -402,7 +333,7 @@ struct SweptGatherFunctor
   }
 
   /// Lanes of pure cells; the others repeat the first of those, and their pairs stay as they are.
-  KOKKOS_FORCEINLINE_FUNCTION unsigned selectPure(int first, int (&from)[pack_width]) const
+  HARMOS_RARE_FUNCTION unsigned selectPure(int first, int (&from)[pack_width]) const
   {
     unsigned pure = 0u;
     int const count = Math::min(pack_width, end - first);
@@ -427,13 +358,19 @@ struct SweptGatherFunctor
     block.first = first;
     block.own = stage.at(0, first);
     block.bits = stage.blockOf(first);
-    int from[pack_width]; // lane
-    for (int lane = 0; lane < pack_width; ++lane)
-      from[lane] = lane;
     if ((block.bits & WholeBit) != 0)
+    {
       block.pure = all_lanes;
-    else
-      block.pure = selectPure(first, from);
+      int const pair = stage.first_pair[first];
+      for (int lane = 0; lane < pack_width; ++lane)
+      {
+        block.cell[lane] = first + lane;
+        block.pair[lane] = pair + lane;
+      }
+      return block;
+    }
+    int from[pack_width]; // lane
+    block.pure = selectPure(first, from);
     for (int lane = 0; lane < pack_width; ++lane)
     {
       block.cell[lane] = first + from[lane];
@@ -454,11 +391,11 @@ struct SweptGatherFunctor
     Neighbours beyond;
     GatheredFaces gathered;
     findNeighbours(block, beyond, gathered);
-    Exchanged const e = exchange(block, beyond);
+    Exchanged const e = exchange(block, beyond, gathered);
     Pack const mass = own(block, OldMass);
     Pack const mass1 = mass - ((e.outflow[0] + e.outflow[1]) + (e.outflow[2] + e.outflow[3]));
     storePack(block.own + NewMass * column_stride, mass1);
-    newRecords(block, beyond, e, mass, mass1);
+    newRecords(block, e, mass, mass1);
     kinetic += moveMomentum(block, beyond, e, mass);
   }
 };

@@ -39,15 +39,27 @@ KOKKOS_FORCEINLINE_FUNCTION Pack cross(PackedVector const &a, PackedVector const
 struct Swept
 {
   Pack volume;         // >= 0
-  PackedVector centre; // from a at mid-step; zero where nothing leaves
+  PackedVector centre; // from a at mid-step unless said; zero where nothing leaves
 };
+
+/// The volume of either sign (sweptWhole, sweptRing).
+template <Geometry geometry>
+KOKKOS_FORCEINLINE_FUNCTION Pack sweptVolume(Pack const &radius, PackedVector const &edge, PackedVector const &u_a,
+                                             PackedVector const &u_b, Pack const &d_a, Pack const &d_b)
+{
+  Pack const area = 0.5 * (d_a + d_b);
+  if constexpr (geometry == Geometry::Planar)
+    return area;
+  else
+    return radius * area +
+           ((d_a + 2.0 * d_b) * (1.0 / 6.0) * edge.x + cross(u_a, u_b) * (1.0 / 24.0) * (u_a.x + u_b.x));
+}
 
 /// With E the edge at mid-step, d_a = u_a x E, d_b = u_b x E: the signed area between the edge before and after has
 /// V = (d_a + d_b) / 2 and the first moment E (d_a + 2 d_b) / 6 + (u_a x u_b) (u_a + u_b) / 24 about a, both exactly.
-KOKKOS_FORCEINLINE_FUNCTION Swept sweptWhole(PackedVector const &edge, PackedVector const &u_a, PackedVector const &u_b,
-                                             Pack const &d_a, Pack const &d_b)
+KOKKOS_FORCEINLINE_FUNCTION Swept sweptWhole(Pack const &volume, PackedVector const &edge, PackedVector const &u_a,
+                                             PackedVector const &u_b, Pack const &d_a, Pack const &d_b)
 {
-  Pack const volume = 0.5 * (d_a + d_b);
   // What is no more than round-off, or too small for its reciprocal (ahead of a wave velocities fade that far), has no
   // centroid.
   auto const leaves = volume > Math::max(Pack(1e-280), Pack(1e-14 * Math::fabs(d_a - d_b)));
@@ -61,11 +73,11 @@ KOKKOS_FORCEINLINE_FUNCTION Swept sweptWhole(PackedVector const &edge, PackedVec
 /// second moments are, c = u_a x u_b and xy standing for (x y + y x) / 2 (points s E + t (u_a + s (u_b - u_a)),
 /// Jacobian d_a + s (d_b - d_a) + t c, 0 < s < 1, |t| < 1/2): S = EE (d_a + 3 d_b) / 12 + c E(u_a + 2 u_b) / 36
 ///   + ((3 d_a + d_b) u_a u_a + 2 (d_a + d_b) u_a u_b + (d_a + 3 d_b) u_b u_b) / 144;
-/// the volume is radius V + F_x, its first moment radius F + S_x. Zero without motion, to the bit.
-KOKKOS_FORCEINLINE_FUNCTION Swept sweptRing(Pack const &radius, PackedVector const &edge, PackedVector const &u_a,
-                                            PackedVector const &u_b, Pack const &d_a, Pack const &d_b)
+/// the volume is radius V + F_x (sweptVolume), its first moment radius F + S_x. Zero without motion, to the bit.
+KOKKOS_FORCEINLINE_FUNCTION Swept sweptRing(Pack const &volume, Pack const &radius, PackedVector const &edge,
+                                            PackedVector const &u_a, PackedVector const &u_b, Pack const &d_a,
+                                            Pack const &d_b)
 {
-  Pack const area = 0.5 * (d_a + d_b);
   Pack const turn = cross(u_a, u_b);
   PackedVector const first = Pack((d_a + 2.0 * d_b) * (1.0 / 6.0)) * edge + Pack(turn * (1.0 / 24.0)) * (u_a + u_b);
   PackedVector const later = u_a + Pack(2.0) * u_b;
@@ -75,7 +87,6 @@ KOKKOS_FORCEINLINE_FUNCTION Swept sweptRing(Pack const &radius, PackedVector con
                   bb * u_b.x * u_b.x;
   Pack const xy = ee * edge.x * edge.y + eu * (edge.x * later.y + edge.y * later.x) + aa * u_a.x * u_a.y +
                   ab * (u_a.x * u_b.y + u_a.y * u_b.x) + bb * u_b.x * u_b.y;
-  Pack const volume = radius * area + first.x;
   auto const leaves =
       volume > Math::max(Pack(1e-280), Pack(1e-14 * Math::fabs(d_a - d_b) * (radius + Math::fabs(edge.x))));
   Pack const per_volume = select(leaves, Pack(1.0), Pack(0.0)) / select(leaves, volume, Pack(1.0));
@@ -160,7 +171,7 @@ struct SweptGeometryFunctor
     return (common & bit) != 0 ? Pack(1.0) : packOf([&](int lane) { return (flags[lane] & bit) != 0 ? 1.0 : 0.0; });
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(int block) const
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int block) const
   {
     int const first = begin + block * pack_width;
     int const count = Math::min(pack_width, end - first);
@@ -186,8 +197,8 @@ struct SweptGeometryFunctor
   }
 
   /// The pure cells; the other lanes repeat the first of those. \return Whether there is one.
-  KOKKOS_INLINE_FUNCTION bool selectPure(int first, int count, int cell[pack_width], int pair[pack_width],
-                                         int flags[pack_width], int &common) const
+  HARMOS_RARE_FUNCTION bool selectPure(int first, int count, int cell[pack_width], int pair[pack_width],
+                                       int flags[pack_width], int &common) const
   {
     int lead = 0;
     while (lead < count && (stage.flags[first + lead] & PureCellBit) == 0)
@@ -250,11 +261,12 @@ struct SweptGeometryFunctor
     }
   }
 
-  /// \return LeaveBit of the faces.
+  /// \return LeaveBit, SecondBit.
   KOKKOS_FORCEINLINE_FUNCTION int compute(int first, int const cell[pack_width], int const pair[pack_width], bool whole,
                                           int const flags[pack_width], int common) const
   {
-    auto const store = [&](int column, Pack const &value) { storePack(stage.at(column, first), value); };
+    double *const own = stage.at(0, first); // once: what is stored might be the stage's numbers, for all compilers know
+    auto const store = [&](int column, Pack const &value) { storePack(own + column * column_stride, value); };
     readAhead(stage.record, pair[0]);
     readAhead(stage.cell_node, cell[0]);
     readAhead(stage.dof_node, pair[0]);
@@ -285,49 +297,71 @@ struct SweptGeometryFunctor
       back[k] = bitOf(flags, common, SweptCornerBit << k) * homeward;
       middle[k] = moved[k] - Pack(0.5) * back[k];
     }
-    Volume const volume = volumeOf(moved);
-    PackedVector const centroid = volume.centroid;
+    Volume const cell_volume = volumeOf(moved);
+    PackedVector const centroid = cell_volume.centroid;
     store(CentroidX, centroid.x);
     store(CentroidY, centroid.y);
-    store(MovedVolume, volume.volume);
-    storeFields(first, pair, whole, volume.inverse);
+    store(MovedVolume, cell_volume.volume);
+    storeFields(own, pair, whole, cell_volume.inverse);
 
     int leaving = 0;
     HARMOS_UNROLL
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 2; ++k)
     {
-      int const next = (k + 1) % 4;
-      PackedVector const edge = middle[next] - middle[k];
-      Pack const d_a = cross(back[k], edge), d_b = cross(back[next], edge);
-      Swept swept;
-      if constexpr (geometry == Geometry::Planar)
-        swept = sweptWhole(edge, back[k], back[next], d_a, d_b);
-      else
-        swept = sweptRing(middle[k].x, edge, back[k], back[next], d_a, d_b);
-      splitWhereEdgesCross<geometry>(middle[k].x, edge, back[k], back[next], d_a, d_b, swept);
-      Pack const out = bitOf(flags, common, NeighbourBit << k) * swept.volume;
-      auto const leaves = out > Pack(0.0);
-      PackedVector const c = (middle[k] - centroid) + swept.centre;
-      store(FaceColumn + num_face_columns * k, out);
-      store(OffsetColumn + 2 * k, select(leaves, c.x, Pack(0.0)));
-      store(OffsetColumn + 2 * k + 1, select(leaves, c.y, Pack(0.0)));
-      leaving |= (any(leaves) ? LeaveBit : 0) << k;
+      Swept const one = sweptOut(k, back, middle, centroid, flags, common);
+      Swept const other = sweptOut(k + 2, back, middle, centroid, flags, common);
+      auto const leaves = one.volume > Pack(0.0), leaves_other = other.volume > Pack(0.0);
+      auto const second = both(leaves, leaves_other);
+      store(FaceColumn + num_face_columns * k, one.volume);
+      store(FaceColumn + num_face_columns * (k + 2), select(second, -other.volume, other.volume));
+      store(OffsetColumn + 2 * k, select(leaves, one.centre.x, other.centre.x));
+      store(OffsetColumn + 2 * k + 1, select(leaves, one.centre.y, other.centre.y));
+      leaving |= any(either(leaves, leaves_other)) ? LeaveBit : 0;
+      if (!any(second))
+        continue;
+      leaving |= SecondBit << k;
+      store(OffsetColumn + 2 * (k + 2), select(second, other.centre.x, Pack(0.0)));
+      store(OffsetColumn + 2 * (k + 2) + 1, select(second, other.centre.y, Pack(0.0)));
     }
     return leaving;
   }
 
+  /// What face k sweeps out of the cell, its centroid from the cell's; zero where nothing leaves.
+  KOKKOS_FORCEINLINE_FUNCTION Swept sweptOut(int k, PackedVector const (&back)[4], PackedVector const (&middle)[4],
+                                             PackedVector const &centroid, int const flags[pack_width],
+                                             int common) const
+  {
+    PackedVector const none = {Pack(0.0), Pack(0.0)};
+    int const next = (k + 1) % 4;
+    PackedVector const edge = middle[next] - middle[k];
+    Pack const d_a = cross(back[k], edge), d_b = cross(back[next], edge);
+    Pack const volume = sweptVolume<geometry>(middle[k].x, edge, back[k], back[next], d_a, d_b);
+    if (!any(either(volume > Pack(0.0), d_a * d_b < Pack(0.0))))
+      return {Pack(0.0), none};
+    Swept swept;
+    if constexpr (geometry == Geometry::Planar)
+      swept = sweptWhole(volume, edge, back[k], back[next], d_a, d_b);
+    else
+      swept = sweptRing(volume, middle[k].x, edge, back[k], back[next], d_a, d_b);
+    splitWhereEdgesCross<geometry>(middle[k].x, edge, back[k], back[next], d_a, d_b, swept);
+    Pack const out = bitOf(flags, common, NeighbourBit << k) * swept.volume;
+    auto const leaves = out > Pack(0.0);
+    PackedVector const c = (middle[k] - centroid) + swept.centre;
+    return {out, {select(leaves, c.x, Pack(0.0)), select(leaves, c.y, Pack(0.0))}};
+  }
+
   /// What is remapped, and the mass.
-  KOKKOS_FORCEINLINE_FUNCTION void storeFields(int first, int const pair[pack_width], bool run,
+  KOKKOS_FORCEINLINE_FUNCTION void storeFields(double *own, int const pair[pack_width], bool run,
                                                Pack const &per_volume) const
   {
     Pack field[num_pair_fields];
     loadIndexedRows(stage.record, pair, run, field);
-    storePack(stage.at(OldMass, first), field[Mass]);
+    storePack(own + OldMass * column_stride, field[Mass]);
     field[DensityField] = field[Mass] * per_volume;
     if (stage.carries())
       field[KineticField] = packOf([&](int lane) { return stage.damage[pair[lane]]; });
     for (int f = 0; f < num_pair_fields; ++f)
-      storePack(stage.at(FieldColumn + f, first), field[f]);
+      storePack(own + (FieldColumn + f) * column_stride, field[f]);
   }
 };
 

@@ -297,7 +297,7 @@ struct SweptQuadraticFunctor
     double swept_volume = 0.0;
     for (int k = 0; k < 4; ++k)
     {
-      swept_volume += *stage.at(FaceColumn + num_face_columns * k, cell);
+      swept_volume += stage.sweptOut(cell, k);
       storeFlux(cell, k, FieldPack(0.0));
     }
     if (!(swept_volume > 0.0))
@@ -312,10 +312,16 @@ struct SweptQuadraticFunctor
     double staying_volume = d.volume;
     for (int k = 0; k < 4; ++k)
     {
-      d.swept_volume[k] = *stage.at(FaceColumn + num_face_columns * k, cell);
+      d.swept_volume[k] = stage.sweptOut(cell, k);
       d.swept_mass[k] = 0.0;
       staying_volume -= d.swept_volume[k];
-      Vector2 const offset{*stage.at(OffsetColumn + 2 * k, cell), *stage.at(OffsetColumn + 2 * k + 1, cell)};
+      if (!(d.swept_volume[k] > 0.0))
+      {
+        d.swept[k] = {d.spread.centroid, {0.0, 0.0, 0.0}};
+        continue;
+      }
+      int const column = OffsetColumn + 2 * stage.slotOf(cell, k);
+      Vector2 const offset{*stage.at(column, cell), *stage.at(column + 1, cell)};
       if (!(d.swept_volume[k] > least_spread_part * d.volume))
         d.swept[k] = {d.spread.centroid + offset, {0.0, 0.0, 0.0}};
       else
@@ -350,14 +356,14 @@ struct SweptQuadraticFunctor
         continue;
       FieldPack flux = fieldWeights(d.swept_volume[k], d.swept_mass[k]) * (d.q + d.deviation[k]);
       flux.set<DensityField>(d.swept_mass[k]);
-      storeFlux(cell, k, flux);
+      storeFlux(cell, stage.slotOf(cell, k), flux);
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void storeFlux(int cell, int k, FieldPack const &flux) const
+  KOKKOS_INLINE_FUNCTION void storeFlux(int cell, int slot, FieldPack const &flux) const
   {
     for (int f = 0; f < FieldPack::fields; ++f)
-      *stage.at(FaceColumn + num_face_columns * k + 1 + f, cell) = flux[f];
+      *stage.at(FaceColumn + num_face_columns * slot + 1 + f, cell) = flux[f];
   }
 };
 

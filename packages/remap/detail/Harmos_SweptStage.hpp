@@ -30,10 +30,13 @@ enum SweptColumn : int
   OldMass = 11,
   NewMass = 12,
   CornerColumn = 13, // + 2 * corner: x, y of the velocity
-  // + 9 * face: the volume that it sweeps out of the cell, >= 0; the neighbour's is what it sweeps into the cell.
-  // + 1 + field: the outgoing fluxes, where any of the block leaves (LeaveBit).
+  // + 9 * face: the volume that it sweeps out of the cell; the neighbour's is what it sweeps into the cell. With the
+  // sign changed where something leaves through the opposite face 0 or 1 as well.
+  // + 9 * slot + 1 + field: the outgoing fluxes, where any of the block leaves (LeaveBit); zero in cells where nothing
+  // does. As a rule things leave through one of two opposite faces: slot 0 serves the faces 0 and 2, slot 1 serves 1
+  // and 3. Where they leave through both, slots 2 and 3 serve the faces 2 and 3 (SecondBit).
   FaceColumn = 21,
-  OffsetColumn = 57,              // + 2 * face: x, y of the swept centroid from the cell's, zero where nothing leaves
+  OffsetColumn = 57,              // + 2 * slot: x, y of the swept centroid from the cell's; where and when as fluxes
   IncrementColumn = OffsetColumn, // + 2 * corner: momentum gained by the corners, when the offsets have served
   num_swept_columns = 65
 };
@@ -43,9 +46,9 @@ constexpr int num_face_columns = 9;
 /// What stage 1 knows of a block of cells, pack_width of them, as bits.
 enum SweptBlock : int
 {
-  RunBit = 1,        // << k: beyond face k lies a run of cells, all pure and of the material on this side
-  LeaveBit = 1 << 4, // << k: material leaves one of the cells through face k
-  all_leave_bits = 15 * LeaveBit,
+  RunBit = 1,           // << k: beyond face k lies a run of cells, all pure and of the material on this side
+  LeaveBit = 1 << 4,    // material leaves one of the cells
+  SecondBit = 1 << 5,   // << i: and through the opposite face i + 2 as well as i = 0, 1
   BoundaryBit = 1 << 8, // some cell has no neighbour beyond one of its faces
   WholeBit = 1 << 9,    // there are pack_width cells, all pure
   AcrossBit = 1 << 10   // << k: as RunBit, but the run's rows begin in one tile and end in another
@@ -183,6 +186,15 @@ struct SweptStage
   KOKKOS_FORCEINLINE_FUNCTION bool sameBeyond(int cell, int face) const
   {
     return (flags[cell] & SameBeyondBit << face) != 0;
+  }
+  /// What leaves through a face, and the slot of its fluxes.
+  KOKKOS_FORCEINLINE_FUNCTION double sweptOut(int cell, int face) const
+  {
+    return Math::fabs(*at(FaceColumn + num_face_columns * face, cell));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION int slotOf(int cell, int face) const
+  {
+    return face < 2 || *at(FaceColumn + num_face_columns * face, cell) < 0.0 ? face : face - 2;
   }
   KOKKOS_FORCEINLINE_FUNCTION bool aboutAxis() const { return geometry == Geometry::Axisymmetric; }
   /// Four times the part of a cell's mass that a corner takes.
