@@ -41,6 +41,16 @@ void Ledger::noteAngularMomentum(double angular_momentum, double moment)
         std::max(largest_angular_drift, std::fabs(angular_momentum - angular_momentum0) / largest_moment);
 }
 
+void Ledger::noteOverlap(double volume, double largest, Vector2 const &place)
+{
+  polygon_overlap += volume;
+  if (!(largest > largest_overlap))
+    return;
+  largest_overlap = largest;
+  largest_overlap_x = place[0];
+  largest_overlap_y = place[1];
+}
+
 std::vector<double> Ledger::values() const
 {
   std::vector<double> v(sizeof(Ledger) / sizeof(double));

@@ -50,6 +50,9 @@ struct Ledger
   double returned_heat = 0.0;         // kinetic energy that the remap turned into internal energy [J/m]
   double largest_angular_drift = 0.0; // |L - L0|, over largest_moment [1]
   double largest_moment = 0.0;        // sum m |x| |v| [N s]
+  double polygon_overlap = 0.0;       // of moved regions of different materials, where it is measured [m^2]
+  double largest_overlap = 0.0;       // in any cell and cycle since the last row of the history, over the cell's volume
+  double largest_overlap_x = 0.0, largest_overlap_y = 0.0; // of that cell [m]
 
   /// Keep the largest errors. \param momentum_error [N s/m] \param energy_error [J/m]
   /// \param energy Kinetic + internal now. \param speed_momentum sum m |v| now.
@@ -62,6 +65,9 @@ struct Ledger
 
   /// Keep the largest drift of the angular momentum, relative to the largest sum m |x| |v| of the run so far.
   void noteAngularMomentum(double angular_momentum, double moment);
+
+  /// What moved regions overlap in one cycle: in all, and the largest part of a cell with its place.
+  void noteOverlap(double volume, double largest, Vector2 const &place);
 
   /// All values in the order of declaration, for checkpoints.
   std::vector<double> values() const;

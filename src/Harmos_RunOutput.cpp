@@ -106,8 +106,8 @@ RunOutput::RunOutput(Deck const &deck, RunOptions const &options, Teuchos::RCP<T
                      OutputStart const &start)
     : deck_(deck), directory_(options.directory), mpi_(rawComm(comm)), names_(fieldNames(deck)),
       all_names_(materialNames(deck)), history_due_(deck.output.history), fields_due_(deck.output.fields),
-      checkpoint_due_(deck.output.checkpoint),
-      history_(directory_ + "/history.csv", names_, comm->getRank() == 0, tableStart(start)),
+      checkpoint_due_(deck.output.checkpoint), history_(directory_ + "/history.csv", names_, comm->getRank() == 0,
+                                                        tableStart(start), deck.output.polygon_overlap),
       contacts_(directory_ + "/contact.csv", comm->getRank() == 0, tableStart(start)),
       probes_(pointLog(deck.probes, directory_ + "/probes.csv", PointLog::probe_header, comm->getRank() == 0, start)),
       tracers_(
@@ -182,7 +182,14 @@ void RunOutput::writeHistory(Scene const &scene, CycleState const &state, CycleR
   row.residual = report.constraint.residual;
   row.material = totals.material;
   row.returned_heat = ledger.returned_heat;
+  row.polygon_overlap = ledger.polygon_overlap;
+  row.polygon_overlap_largest = ledger.largest_overlap;
+  row.polygon_overlap_place[0] = ledger.largest_overlap_x;
+  row.polygon_overlap_place[1] = ledger.largest_overlap_y;
   history_.write(row);
+  // A restart takes an end's row away, and goes on to the next.
+  if (history_due_.regular())
+    ledger.largest_overlap = ledger.largest_overlap_x = ledger.largest_overlap_y = 0.0;
 }
 
 void RunOutput::writeContacts(Scene const &scene, CycleState const &state, CycleReport const &report)

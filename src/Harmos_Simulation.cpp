@@ -63,6 +63,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.bounded += sums[14];
   l.repeats += report.repeats;
   l.restored_volume += report.restored_volume;
+  l.noteOverlap(remap.moved_overlap.volume, remap.moved_overlap.largest, remap.moved_overlap.place);
 }
 
 /// What to say of a condensed material without a failure law that is stretched to less than half of its density: its

@@ -127,7 +127,8 @@ struct PointSpec
 
 struct OutputSpec
 {
-  Cadence history; // of history.csv, contact.csv, probes and tracers
+  Cadence history;              // of history.csv, contact.csv, probes and tracers
+  bool polygon_overlap = false; // its columns in history.csv; remap.measure_overlap says the same
   Cadence fields;
   Cadence checkpoint;
   bool xdmf = true; // HDF5 + XDMF

@@ -369,7 +369,7 @@ Cadence cadenceOf(ParameterList &list)
   return cadence;
 }
 
-void convertRunAndOutput(ParameterList const &run, ParameterList &output, Deck &deck)
+void convertRunAndOutput(DeckChecker const &check, ParameterList const &run, ParameterList &output, Deck &deck)
 {
   deck.run.end_time = run.get<double>("end_time");
   deck.run.max_cycles = run.get<int>("max_cycles");
@@ -378,6 +378,12 @@ void convertRunAndOutput(ParameterList const &run, ParameterList &output, Deck &
   deck.output.xdmf = output.get<bool>("xdmf");
   deck.output.vtu = output.get<bool>("vtu");
   deck.output.history = cadenceOf(output.sublist("history"));
+  deck.output.polygon_overlap = output.sublist("history").get<bool>("polygon_overlap");
+  check.require(!deck.output.polygon_overlap || deck.kinematics != Kinematics::Lagrangian,
+                "output/history/polygon_overlap",
+                "true in kinematics lagrangian: its meshes are the bodies, and no cells that several of them are moved "
+                "into; expected: false");
+  deck.remap.measure_overlap = deck.output.polygon_overlap;
   deck.output.fields = cadenceOf(output.sublist("fields"));
   deck.output.checkpoint = cadenceOf(output.sublist("checkpoint"));
 }
@@ -470,7 +476,7 @@ Deck convertDeck(ParameterList complete, std::string const &file)
   convertPrescribed(check, complete, deck);
   if (deck.geometry == Geometry::Axisymmetric)
     checkAxisymmetric(check, deck);
-  convertRunAndOutput(complete.sublist("run"), complete.sublist("output"), deck);
+  convertRunAndOutput(check, complete.sublist("run"), complete.sublist("output"), deck);
   check.require(deck.output.xdmf || !deck.output.vtu, "output/vtu",
                 "true without output/xdmf: a restart finds the times of the .vtu files in the HDF5 files; expected: "
                 "output/xdmf: true");

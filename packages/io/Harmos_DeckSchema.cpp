@@ -292,6 +292,9 @@ void addOutput(ParameterList &list)
 {
   add(list, "xdmf", true, rulesOf(KeyType::Bool), "fields as HDF5 with XDMF; false: no fields");
   add(list, "vtu", false, rulesOf(KeyType::Bool), "fields as VTK files too");
+  add(list.sublist("history"), "polygon_overlap", false, rulesOf(KeyType::Bool),
+      "columns of what moved regions of different materials overlap before the remap, polygon by polygon; not in "
+      "kinematics lagrangian");
   addCadence(list.sublist("history"), true, true, "rows of history, contact, probes and tracers");
   addCadence(list.sublist("fields"), false, true, "fields");
   addCadence(list.sublist("checkpoint"), false, false, "a checkpoint");

@@ -6,7 +6,7 @@
 namespace Harmos
 {
 
-std::string historyHeader(std::vector<std::string> const &material_names)
+std::string historyHeader(std::vector<std::string> const &material_names, bool polygon_overlap)
 {
   std::string header =
       "cycle,time,dt,mass,momentum_x,momentum_y,angular_momentum,kinetic_energy,internal_energy,external_work,"
@@ -19,14 +19,18 @@ std::string historyHeader(std::vector<std::string> const &material_names)
       header += ',' + name + '.' + column;
   for (auto const &name : material_names)
     header += ',' + name + ".failed_mass";
-  return header + ",returned_heat";
+  header += ",returned_heat";
+  if (polygon_overlap)
+    header += ",polygon_overlap,polygon_overlap_largest,polygon_overlap_x,polygon_overlap_y";
+  return header;
 }
 
-History::History(std::string const &path, std::vector<std::string> const &material_names, bool writes, CsvStart start)
-    : num_materials_(material_names.size())
+History::History(std::string const &path, std::vector<std::string> const &material_names, bool writes, CsvStart start,
+                 bool polygon_overlap)
+    : num_materials_(material_names.size()), polygon_overlap_(polygon_overlap)
 {
   if (writes)
-    file_ = std::make_unique<CsvFile>(path, historyHeader(material_names), start);
+    file_ = std::make_unique<CsvFile>(path, historyHeader(material_names, polygon_overlap), start);
 }
 
 void History::write(HistoryRow const &row)
@@ -69,6 +73,10 @@ void History::write(HistoryRow const &row)
   for (auto const &m : row.material)
     appendValue(line, m.failed_mass);
   appendValue(line, row.returned_heat);
+  if (polygon_overlap_)
+    for (double value :
+         {row.polygon_overlap, row.polygon_overlap_largest, row.polygon_overlap_place[0], row.polygon_overlap_place[1]})
+      appendValue(line, value);
   file_->append(line + '\n');
 }
 

@@ -51,6 +51,9 @@ struct HistoryRow
   double residual = 0.0;                 // of the constraint loop, relative
   std::vector<HistoryMaterial> material; // in the order of the names
   double returned_heat = 0.0;            // kinetic energy that the remap turned into internal energy [J/m]
+  double polygon_overlap = 0.0;          // of moved regions [m^2]; this and the next two where they are asked for
+  double polygon_overlap_largest = 0.0;  // in any cell and cycle since the last row, over the cell's volume
+  double polygon_overlap_place[2] = {0.0, 0.0}; // of that cell [m]
 };
 
 /// history.csv: a header line, then a row per call, whole lines only, doubles with 17 digits.
@@ -59,20 +62,22 @@ class History
 public:
   /// \param writes True on the one rank that writes; elsewhere every call does nothing.
   /// \param start  Fresh, or cut after a restart's cycle and continued.
+  /// \param polygon_overlap With the columns of the polygon overlap.
   /// \throws std::runtime_error when the file cannot be made or its columns differ from this run's.
   History(std::string const &path, std::vector<std::string> const &material_names, bool writes,
-          CsvStart start = CsvStart::fresh());
+          CsvStart start = CsvStart::fresh(), bool polygon_overlap = false);
 
   /// \throws std::invalid_argument when the row has another number of materials than the header.
   void write(HistoryRow const &row);
 
 private:
   std::size_t num_materials_;
+  bool polygon_overlap_;
   std::unique_ptr<CsvFile> file_;
 };
 
 /// The header line of history.csv, without the line end.
-std::string historyHeader(std::vector<std::string> const &material_names);
+std::string historyHeader(std::vector<std::string> const &material_names, bool polygon_overlap = false);
 
 } // namespace Harmos
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Remap.hpp>
 
+#include <detail/Harmos_DonorOverlap.hpp>
 #include <detail/Harmos_FieldRanges.hpp>
 #include <detail/Harmos_Kept.hpp>
 #include <detail/Harmos_Rebuild.hpp>
@@ -303,6 +304,8 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     intersectInterfaceCells(in, classes, stage, kept);
     addBookings(classes, kept.bookings, report, out_kinetic);
   }
+  if (options.measure_overlap)
+    report.moved_overlap = measureOverlap(in, classes, kept.donors, exchange);
   Rebuilt rebuilt = rebuild(in, kinematics, classes, stage, acceptors);
   rebuilt.result.state.velocity = stage.velocity;
   rebuilt.result.state.tracks_damage = state.tracks_damage;

@@ -40,9 +40,20 @@ struct RemapOptions
   bool swept_faces = true;        // pure regions by swept faces; false: intersection everywhere
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
                                       // where damage is tracked, which is carried in its place
+  bool measure_overlap = false;       // RemapReport::moved_overlap; changes nothing else
 };
 
-/// Sums over owned cells of one remap, for the history.
+/// What the moved regions of different materials have in common, polygon by polygon and whatever void is left beside
+/// them: every two regions once, of the same cell and of others, rigid bodies' filled regions included. Of all ranks;
+/// what lies outside of the mesh does not count.
+struct MovedOverlap
+{
+  double volume = 0.0;        // sum over the cells [length^2, or per radian length^3]
+  double largest = 0.0;       // in any one cell of the target mesh, over its volume [1]
+  Vector2 place = {0.0, 0.0}; // centroid of that cell; the lowest where several have as much [length]
+};
+
+/// Sums over owned cells of one remap, for the history; with `moved_overlap`, which is of all ranks.
 struct RemapReport
 {
   double overlap_volume = 0.0;                     // overlap of moved regions that was scaled away (>= 0) [length^2]
@@ -56,6 +67,7 @@ struct RemapReport
                           0.0}; // by node conditions on the bodies when the remapped velocities are projected [N s/m]
   double kinetic_loss = 0.0;    // before - after - outflow, less what became heat
   double returned_heat = 0.0;   // kinetic energy that became internal energy (return_kinetic_defect)
+  MovedOverlap moved_overlap;   // of the last remap; zero unless RemapOptions::measure_overlap
   long long failures = 0;       // owned donors whose overlays do not add up to 1e-10 of their volume
   int first_failed_cell = -1;   // with the material of its first such donor; -1: the cell gets too many materials
   int first_failed_material = -1;

@@ -66,7 +66,9 @@ def test_single_velocity_block():
 
 
 def test_disc_through_plate():
-    clean(compare("disc_through_plate/deck.yaml", ranks=(2, 3, 4)))
+    r = compare("disc_through_plate/deck.yaml", {"output/history/polygon_overlap": "true"}, ranks=(2, 3, 4))
+    assert r.last("polygon_overlap") > r.last("overlap_volume") > 0.0
+    clean(r)
 
 
 def test_failure_on_one_rank_alone():

@@ -60,6 +60,17 @@ TEST(Deck, RowsOfHistory_comeEveryCycle_onlyWhereNoOtherRhythmIsGiven)
   EXPECT_EQ(readDeckText(by_time.yaml, "echo", {"output/history/every_time=0.0"}).output.history.every_cycles, 0);
 }
 
+TEST(Deck, PolygonOverlap_isMeasuredWhereTheHistoryShowsIt)
+{
+  Deck const plain = example({});
+  EXPECT_FALSE(plain.output.polygon_overlap);
+  EXPECT_FALSE(plain.remap.measure_overlap);
+  Deck const measured = example({"output/history/polygon_overlap=true"});
+  EXPECT_TRUE(measured.output.polygon_overlap);
+  EXPECT_TRUE(measured.remap.measure_overlap);
+  EXPECT_EQ(measured.output.history.every_cycles, 1);
+}
+
 TEST(Deck, Bodies_keepTheirOrder_andJoinedOnesShareAField)
 {
   Deck const deck = example();

@@ -211,6 +211,8 @@ TEST(DeckErrors, Lagrangian_takesConvexBlocksWithoutInflow)
   EXPECT_EQ(messageOfText(block), "accepted");
   EXPECT_HAS(messageOfText(block, {"boundaries/left={type: inflow, body: a, velocity: [1, 0]}"}), "has no inflow");
   EXPECT_HAS(messageOfText(block, {"bodies/a/cut=true"}), "cannot cut blocks");
+  EXPECT_HAS(messageOfText(block, {"output/history/polygon_overlap=true"}),
+             "output/history/polygon_overlap: true in kinematics lagrangian");
   EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[1, 2.5]"}), "bodies/a/cells: expected: two integers");
   EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[1000000, 1000000]"}), "bodies/a/cells: more cells than 32-bit");
   EXPECT_HAS(messageOfText(block, {"bodies/a/cells=[20000, 20000]",

@@ -52,6 +52,29 @@ TEST(History, header_namesTheColumnsThatScriptsRelyOn)
             "iterations,residual,cu.mass,cu.volume,cu.momentum_x,cu.momentum_y,cu.kinetic_energy,cu.internal_energy,"
             "cu.x_min,cu.x_max,cu.y_min,cu.y_max,cu.plastic_strain_max,"
             "cu.failed_mass,returned_heat");
+  EXPECT_EQ(historyHeader({"cu"}, true), historyHeader({"cu"}) + ",polygon_overlap,polygon_overlap_largest,"
+                                                                 "polygon_overlap_x,polygon_overlap_y");
+}
+
+TEST(History, polygonOverlap_standsLastWhereItIsAskedFor)
+{
+  HistoryRow row = rowOf(1);
+  row.polygon_overlap = 0.5;
+  row.polygon_overlap_largest = 0.25;
+  row.polygon_overlap_place[0] = -2.0;
+  row.polygon_overlap_place[1] = 3.0;
+  for (bool const asked : {false, true})
+  {
+    {
+      History history("overlap.csv", {"a", "b"}, true, CsvStart::fresh(), asked);
+      history.write(row);
+    }
+    auto const lines = linesOf("overlap.csv");
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(std::count(lines[0].begin(), lines[0].end(), ','), std::count(lines[1].begin(), lines[1].end(), ','));
+    EXPECT_EQ(lines[1].rfind(",0.5,0.25,-2,3") != std::string::npos, asked) << lines[1];
+  }
+  EXPECT_THROW(History("overlap.csv", {"a", "b"}, true, CsvStart::after(0)), std::runtime_error);
 }
 
 TEST(History, onAFullDisk_keepsWholeLinesAndSaysWhy)

@@ -109,9 +109,8 @@ KOKKOS_INLINE_FUNCTION Vector2 withinWalls(Input const &in, int cell, Quadrilate
   return shift;
 }
 
-/// A needle thinner than the bilinear map bends would fold: it moves as a whole, by the displacement of its centroid,
-/// but through no wall.
-KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, MovedCorners const &c, Region &region)
+/// The filled region at the start; `q`: its cell.
+KOKKOS_INLINE_FUNCTION void stillRegion(Input const &in, int cell, int pair, Quadrilateral const &q, Region &region)
 {
   int const first = in.regions.cell_region(cell);
   region.size = 4;
@@ -119,7 +118,14 @@ KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, Mov
     region = in.regions.polygon(first + pair - in.pairs.offset(cell));
   else
     for (int k = 0; k < 4; ++k)
-      region[k] = c.q[k];
+      region[k] = q[k];
+}
+
+/// A needle thinner than the bilinear map bends would fold: it moves as a whole, by the displacement of its centroid,
+/// but through no wall.
+KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, MovedCorners const &c, Region &region)
+{
+  stillRegion(in, cell, pair, c.q, region);
   Vector2 const *const u = c.u;
   Vector2 const centroid = region[0] + moments<1>(region, region[0]).centroid();
   double N[4];
@@ -258,6 +264,26 @@ void moveDonors(Input const &in, Classes const &classes, StageState const &stage
   grow(donors.value, "donorValue", donors.num);
   grow(donors.half, "donorHalf", donors.num);
   Kokkos::parallel_for("Harmos::remap::moveDonors", RangePolicy(0, cells), MoveFunctor{in, classes, stage, donors});
+}
+
+void moveOtherRegions(Input const &in, Classes const &classes, Donors const &donors)
+{
+  Kokkos::parallel_for(
+      "Harmos::remap::moveOtherRegions", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int index) {
+        int const cell = classes.interface_cell(index);
+        for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
+        {
+          DonorHead const head = donors.head(donor);
+          Region &region = donors.polygon(donor);
+          MovedCorners c;
+          if (head.kind == DegenerateDonor)
+            region.size = 0;
+          else if (head.kind != MovingDonor && moveCorners(in, classes, cell, head.pair, c))
+            moveRegion(in, cell, head.pair, c, region);
+          else if (head.kind != MovingDonor)
+            stillRegion(in, cell, head.pair, c.q, region);
+        }
+      });
 }
 
 } // namespace RemapDetail

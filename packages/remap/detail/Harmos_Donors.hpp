@@ -77,6 +77,10 @@ KOKKOS_INLINE_FUNCTION void cornerVelocities(CellMaterialPairs const &pairs, Vie
 /// The donors' values.
 void moveDonors(Input const &in, Classes const &classes, StageState const &stage, Donors &donors);
 
+/// The polygons that moveDonors leaves out, after it: quiet donors where they are, rigid bodies' filled regions moved
+/// with their dof nodes, degenerate donors without vertices.
+void moveOtherRegions(Input const &in, Classes const &classes, Donors const &donors);
+
 } // namespace RemapDetail
 } // namespace Harmos
 
