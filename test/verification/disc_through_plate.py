@@ -40,12 +40,12 @@ def test_moved_regions_overlap_by_less_than_half_a_cell():
     check("median overlap of the moved regions, cells over the whole run", sorted(overlaps)[1], 0.5)
     check("the largest", max(overlaps), 0.6)
     # Polygon against polygon, whatever void is left: eleven offsets gave 3.3 to 5.4 cells over the run, and 0.010 to
-    # 0.027 of a cell at most in any cell and cycle (median 0.0175), in ten of them among fragments after 3.9 us.
+    # 0.0265 of a cell at most in any cell and cycle (median 0.0175), mostly among fragments after 3.9 us.
     print("  polygon by polygon, cells over the whole run:", ", ".join(f"{p:.2f}" for p in polygons))
-    check("the largest, cells over the whole run", max(polygons), 7.0)
+    check("the largest, cells over the whole run", max(polygons), 8.0)
     print("  in any one cell and cycle, of the cell:", ", ".join(f"{p:.4f}" for p in largest))
-    check("median of the largest polygon overlap in any one cell and cycle", sorted(largest)[1], 0.02)
-    check("the largest", max(largest), 0.03)
+    check("median of the largest polygon overlap in any one cell and cycle", sorted(largest)[1], 0.03)
+    check("the largest", max(largest), 0.05)
 
 
 def test_upper_and_lower_half_are_mirror_images_while_round_off_is_small():
