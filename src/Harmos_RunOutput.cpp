@@ -107,7 +107,7 @@ RunOutput::RunOutput(Deck const &deck, RunOptions const &options, Teuchos::RCP<T
     : deck_(deck), directory_(options.directory), mpi_(rawComm(comm)), names_(fieldNames(deck)),
       all_names_(materialNames(deck)), history_due_(deck.output.history), fields_due_(deck.output.fields),
       checkpoint_due_(deck.output.checkpoint), history_(directory_ + "/history.csv", names_, comm->getRank() == 0,
-                                                        tableStart(start), deck.output.polygon_overlap),
+                                                        tableStart(start), deck.remap.measure_overlap),
       contacts_(directory_ + "/contact.csv", comm->getRank() == 0, tableStart(start)),
       probes_(pointLog(deck.probes, directory_ + "/probes.csv", PointLog::probe_header, comm->getRank() == 0, start)),
       tracers_(

@@ -44,7 +44,7 @@ std::string folderProblem(Run const &run)
       names.push_back(field.name);
     std::ifstream history(directory / "history.csv");
     std::string header;
-    if (!std::getline(history, header) || header != historyHeader(names, run.deck.output.polygon_overlap))
+    if (!std::getline(history, header) || header != historyHeader(names, run.deck.remap.measure_overlap))
       return "--restart: the columns of '" + (directory / "history.csv").string() + "' are not those of this run";
   }
   fs::create_directories(directory, error);

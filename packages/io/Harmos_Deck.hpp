@@ -127,8 +127,7 @@ struct PointSpec
 
 struct OutputSpec
 {
-  Cadence history;              // of history.csv, contact.csv, probes and tracers
-  bool polygon_overlap = false; // its columns in history.csv; remap.measure_overlap says the same
+  Cadence history; // of history.csv, contact.csv, probes and tracers
   Cadence fields;
   Cadence checkpoint;
   bool xdmf = true; // HDF5 + XDMF

@@ -378,12 +378,11 @@ void convertRunAndOutput(DeckChecker const &check, ParameterList const &run, Par
   deck.output.xdmf = output.get<bool>("xdmf");
   deck.output.vtu = output.get<bool>("vtu");
   deck.output.history = cadenceOf(output.sublist("history"));
-  deck.output.polygon_overlap = output.sublist("history").get<bool>("polygon_overlap");
-  check.require(!deck.output.polygon_overlap || deck.kinematics != Kinematics::Lagrangian,
+  deck.remap.measure_overlap = output.sublist("history").get<bool>("polygon_overlap");
+  check.require(!deck.remap.measure_overlap || deck.kinematics != Kinematics::Lagrangian,
                 "output/history/polygon_overlap",
                 "true in kinematics lagrangian: its meshes are the bodies, and no cells that several of them are moved "
                 "into; expected: false");
-  deck.remap.measure_overlap = deck.output.polygon_overlap;
   deck.output.fields = cadenceOf(output.sublist("fields"));
   deck.output.checkpoint = cadenceOf(output.sublist("checkpoint"));
 }

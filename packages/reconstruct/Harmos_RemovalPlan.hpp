@@ -258,28 +258,30 @@ KOKKOS_INLINE_FUNCTION bool voidIsBeside(CellComponents const &c)
   return 2.0 * Math::fabs(cross(apart, towards)) > Math::fabs(dot(apart, towards));
 }
 
-/// Whether both bodies end in a parted cell: each has void, behind a line more than 45 degrees from the parting one.
-KOKKOS_INLINE_FUNCTION bool bothEnd(PartedCell const &cell)
+/// Whether both bodies of a parted cell have void, each behind a line at an angle to the parting one whose squared
+/// cosine is accepted.
+template <class Accepts>
+KOKKOS_INLINE_FUNCTION bool bothLines(PartedCell const &cell, Accepts const &accepts)
 {
-  bool ends = true;
+  bool both = true;
   for (int k = 0; k < 2; ++k)
   {
     double const along = dot(cell.own[k], cell.normal);
-    ends = ends && cell.lined[k] && 2.0 * along * along <= 1.0;
+    both = both && cell.lined[k] && accepts(along * along);
   }
-  return ends;
+  return both;
+}
+
+/// Whether both bodies end in a parted cell: behind lines more than 45 degrees from the parting one.
+KOKKOS_INLINE_FUNCTION bool bothEnd(PartedCell const &cell)
+{
+  return bothLines(cell, [](double squared) { return 2.0 * squared <= 1.0; });
 }
 
 /// Whether the void of a parted cell lies between its bodies: behind lines within 30 degrees of the parting one.
 KOKKOS_INLINE_FUNCTION bool voidIsBetween(PartedCell const &cell)
 {
-  bool between = true;
-  for (int k = 0; k < 2; ++k)
-  {
-    double const along = dot(cell.own[k], cell.normal);
-    between = between && cell.lined[k] && 4.0 * along * along > 3.0;
-  }
-  return between;
+  return bothLines(cell, [](double squared) { return 4.0 * squared > 3.0; });
 }
 
 /// Two bodies and void, none a sliver, that the given sequence of cuts does not leave as they are: part the cell where

@@ -63,10 +63,8 @@ TEST(Deck, RowsOfHistory_comeEveryCycle_onlyWhereNoOtherRhythmIsGiven)
 TEST(Deck, PolygonOverlap_isMeasuredWhereTheHistoryShowsIt)
 {
   Deck const plain = example({});
-  EXPECT_FALSE(plain.output.polygon_overlap);
   EXPECT_FALSE(plain.remap.measure_overlap);
   Deck const measured = example({"output/history/polygon_overlap=true"});
-  EXPECT_TRUE(measured.output.polygon_overlap);
   EXPECT_TRUE(measured.remap.measure_overlap);
   EXPECT_EQ(measured.output.history.every_cycles, 1);
 }
