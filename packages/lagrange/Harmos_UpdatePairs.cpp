@@ -88,7 +88,6 @@ struct UpdateFunctor
   RowPointer<double, num_pair_fields> record;
   RowPointer<double, 8> corner_force;
   View<double *> dof_mass;
-  bool all_owned;
   detail::CutPairs cut;
 
   KOKKOS_INLINE_FUNCTION bool stored(unsigned lanes, int lane) const { return (lanes >> lane & 1u) != 0u; }
@@ -96,8 +95,6 @@ struct UpdateFunctor
   /// The stored lanes whose cells this rank owns.
   KOKKOS_FORCEINLINE_FUNCTION unsigned owned(unsigned lanes, int const cell[pack_width]) const
   {
-    if (all_owned)
-      return lanes;
     for (int lane = 0; lane < pack_width; ++lane)
       if (cell_depth[cell[lane]] != 0)
         lanes &= ~(1u << lane);
@@ -140,7 +137,6 @@ struct UpdateFunctor
     int cell[pack_width];
     for (int lane = 0; lane < pack_width; ++lane)
       cell[lane] = cell_of[pair[lane]];
-    unsigned const owned_lanes = owned(lanes, cell);
     readAhead(material_of, pair[0]);
     readAhead(cell_of, pair[0]);
     readAhead(record, pair[0]);
@@ -156,7 +152,7 @@ struct UpdateFunctor
     auto const v = detail::packedCorners(dofs, half);
     if (material.rigid_body >= 0)
     {
-      includeRigid(x, v, pair, owned_lanes, sums);
+      includeRigid(x, v, pair, owned(lanes, cell), sums);
       return;
     }
     Pack const power = cornerPower(corner_force, pair, run, detail::packedCorners(dofs, velocity), v);
@@ -175,12 +171,15 @@ struct UpdateFunctor
         detail::acousticRate(material, options, updated.geometry, eos, r.specific_volume, r.internal_energy);
     Pack const rate = detail::pairRate(pairs, dof_mass, limits, pair, v, updated.geometry, acoustic, r.specific_volume);
     if (any(rate > Pack(sums.largest.rate)))
+    {
+      unsigned const counted = owned(lanes, cell);
       for (int lane = 0; lane < pack_width; ++lane)
-        if (stored(owned_lanes, lane))
+        if (stored(counted, lane))
           sums.largest.include(laneOf(rate, lane), pair[lane]);
+    }
     auto const in_range = eosInRange(material, eos, r.specific_volume, r.internal_energy);
     if (any(no(both(both(updated.corner_area > Pack(0.0), isFinite(r)), in_range))))
-      countTrouble(updated, in_range, pair, owned_lanes, sums);
+      countTrouble(updated, in_range, pair, owned(lanes, cell), sums);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int block, UpdateSums &sums) const
@@ -211,7 +210,6 @@ UpdateSums launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState co
                                        state.record,
                                        work.corner_force,
                                        work.dof_mass,
-                                       mesh.num_owned_cells == mesh.num_cells,
                                        detail::CutPairs(work.cut, pairs)};
   UpdateSums result;
   Kokkos::parallel_reduce("Harmos::lagrange::updatePairs", RangePolicy(0, numPacks(pairs.num_pairs)), update,

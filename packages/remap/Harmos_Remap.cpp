@@ -148,8 +148,9 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   }
   if (in.carriesDamage())
     damage = stage.kinetic;
+  bool const owned_alone = classes.num_interface == 0; // stage 2 reads the halo; what comes after is told it
   sums = sweep(SweptStage(in, classes, kept.window, in.state.damage, stage.record, damage, stage.velocity, heat),
-               kept.chunks, in.mesh.num_cells);
+               kept.chunks, owned_alone);
   if (returns_heat)
     addHeat(in, stage, heat);
   return stage;

@@ -34,6 +34,12 @@ def test_translation_patch():
     clean(compare("translation_patch/deck.yaml"))
 
 
+def test_pure_cells():
+    for order in 2, 3:
+        small = {"mesh/x/cells": 64, "mesh/y/cells": 64, "numerics/remap/order": order}
+        clean(compare("pure_speed/deck.yaml", small))
+
+
 def test_third_order_with_swept_faces():
     for deck in "translation_patch/deck.yaml", "taylor_rod_axisymmetric/deck.yaml":
         clean(compare(deck, {"numerics/remap/order": 3}))

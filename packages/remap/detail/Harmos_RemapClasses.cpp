@@ -135,7 +135,8 @@ struct Classifier
   {
     int const code = classes.pure_material(cell);
     int const rigid = classes.flags(cell) & RigidBit;
-    int flags = rigid | (rigid != 0 ? InterfaceCellBit : 0) | (code >= 0 ? PureCellBit : 0);
+    int flags = rigid | (rigid != 0 ? InterfaceCellBit : 0) | (code >= 0 ? PureCellBit : 0) |
+                (in.mesh.cell_depth(cell) == 0 ? OwnedCellBit : 0);
     for (int k = 0; k < 4; ++k)
     {
       int const kind = classes.node_return(in.mesh.cell_node(cell, k));

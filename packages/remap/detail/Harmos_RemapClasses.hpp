@@ -35,6 +35,7 @@ enum SweptBits : int
   PureCellBit = 1 << 12,
   RigidBit = 1 << 13,         // holds a rigid body, or did, and is not full of it before and after
   InterfaceCellBit = 1 << 14, // takes part in stage 2
+  OwnedCellBit = 1 << 15,     // of any kind
   all_swept_corners = 15
 };
 

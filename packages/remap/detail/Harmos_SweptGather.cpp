@@ -323,11 +323,12 @@ struct SweptGatherFunctor : NeighbourFaces
       storePack(block.own + (IncrementColumn + 2 * k + 1) * column_stride, gain.y[k]);
     }
     Pack const kinetic = 0.125 * mass * speed2;
-    if (stage.all_owned && block.pure == all_lanes)
+    bool const owned = (block.bits & OwnedBit) != 0;
+    if (owned && block.pure == all_lanes)
       return laneSum(kinetic);
     double sum = 0.0;
     for (int lane = 0; lane < pack_width; ++lane)
-      if ((block.pure >> lane & 1u) != 0u && stage.cell_depth[block.cell[lane]] == 0)
+      if ((block.pure >> lane & 1u) != 0u && (owned || (stage.flags[block.cell[lane]] & OwnedCellBit) != 0))
         sum += laneOf(kinetic, lane);
     return sum;
   }

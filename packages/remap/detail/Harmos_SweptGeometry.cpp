@@ -193,7 +193,8 @@ struct SweptGeometryFunctor
     int const leaving = compute(first, cell, pair, whole, flags, common);
     constexpr int all_neighbours = 15 * NeighbourBit;
     stage.blockOf(first) = leaving | (whole ? WholeBit | runsBeyond(first, common) : 0) |
-                           ((common & all_neighbours) == all_neighbours ? 0 : BoundaryBit);
+                           ((common & all_neighbours) == all_neighbours ? 0 : BoundaryBit) |
+                           ((common & OwnedCellBit) != 0 ? OwnedBit : 0);
   }
 
   /// The pure cells; the other lanes repeat the first of those. \return Whether there is one.

@@ -48,11 +48,43 @@ bool rowsLast(Mesh const &mesh, SweptChunks const &chunks)
   return true;
 }
 
+/// From the first to the last with `depth` <= layers.
+SweptRange rangeWithin(View<int *> const &depth, int layers)
+{
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), depth);
+  SweptRange range{0, static_cast<int>(depth.extent(0))};
+  while (range.begin < range.end && host(range.begin) > layers)
+    ++range.begin;
+  while (range.begin < range.end && host(range.end - 1) > layers)
+    --range.end;
+  return range;
+}
+
+void findRanges(Mesh const &mesh, SweptChunks &chunks)
+{
+  chunks.all_cells = {0, mesh.num_cells};
+  chunks.all_nodes = {0, mesh.num_nodes};
+  for (int k = 0; k < 4; ++k)
+  {
+    SweptRange const range = rangeWithin(mesh.cell_depth, k);
+    chunks.within[k] = {range.begin / pack_width * pack_width,
+                        std::min((range.end + pack_width - 1) / pack_width * pack_width, mesh.num_cells)};
+  }
+  chunks.own_nodes = rangeWithin(mesh.node_depth, 0);
+}
+
+SweptRange clipped(SweptRange const &range, SweptRange const &wanted)
+{
+  int const begin = std::max(range.begin, wanted.begin);
+  return {begin, std::max(begin, std::min(range.end, wanted.end))};
+}
+
 } // namespace
 
 SweptChunks sweptChunks(Mesh const &mesh)
 {
   SweptChunks chunks;
+  findRanges(mesh, chunks);
   chunks.chunk = least_chunk;
   bool const on_host = std::is_same<MemorySpace, Kokkos::HostSpace>::value;
   int const threads = on_host ? ExecutionSpace().concurrency() : 1;
@@ -87,10 +119,9 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
                        View<double *> const &damage_after, View<double *[2]> const &velocity_after,
                        SweptHeat const &heat)
     : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), third_order(in.options.order > 2),
-      limiter(in.options.limiter), ranges(in.ranges.data()), all_owned(in.mesh.num_owned_cells == in.mesh.num_cells),
-      cell_node(in.mesh.cell_node), face_neighbour(in.mesh.face_neighbour), position(in.start),
-      target(in.mesh.node_position), retargeted(in.retargeted), cell_depth(in.mesh.cell_depth.data()),
-      node_owned(in.mesh.node_owned.data()), first_item(in.mesh.node_cell.offset.data()),
+      limiter(in.options.limiter), ranges(in.ranges.data()), cell_node(in.mesh.cell_node),
+      face_neighbour(in.mesh.face_neighbour), position(in.start), target(in.mesh.node_position),
+      retargeted(in.retargeted), node_owned(in.mesh.node_owned.data()), first_item(in.mesh.node_cell.offset.data()),
       item(in.mesh.node_cell.item.data()), first_neighbour(in.mesh.cell_neighbour.offset.data()),
       neighbour(in.mesh.cell_neighbour.item.data()), node_condition(in.conditions.node_index.data()),
       condition(in.conditions.condition.data()), first_pair(in.pairs.offset.data()),
@@ -104,23 +135,36 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
 {
 }
 
-SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, int cells)
+SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, bool owned_alone)
 {
   SweptSums sums;
-  auto const begin = [&](int t) { return std::min(t * chunks.chunk, cells); };
+  auto const inChunk = [&](int t, int layers)
+  {
+    SweptRange const wanted = owned_alone ? chunks.within[layers] : chunks.all_cells;
+    return clipped({t * chunks.chunk, (t + 1) * chunks.chunk}, wanted);
+  };
+  SweptRange const wanted_nodes = owned_alone ? chunks.own_nodes : chunks.all_nodes;
   int node = 0;
   for (int t = 0; t < chunks.count + 2; ++t)
   {
     if (t < chunks.count)
-      sweptGeometry(stage, begin(t), begin(t + 1));
-    if (t < chunks.count && stage.third_order)
-      sweptSpread(stage, begin(t), begin(t + 1));
+    {
+      SweptRange const cells = inChunk(t, 3);
+      sweptGeometry(stage, cells.begin, cells.end);
+      if (stage.third_order)
+        sweptSpread(stage, cells.begin, cells.end);
+    }
     if (t >= 1 && t - 1 < chunks.count)
-      (stage.third_order ? sweptQuadraticFluxes : sweptFluxes)(stage, begin(t - 1), begin(t));
+    {
+      SweptRange const cells = inChunk(t - 1, 2);
+      (stage.third_order ? sweptQuadraticFluxes : sweptFluxes)(stage, cells.begin, cells.end);
+    }
     if (t < 2)
       continue;
-    sums.kinetic_before += sweptGather(stage, begin(t - 2), begin(t - 1));
-    sweptNodes(stage, node, chunks.node_end[t - 2], sums);
+    SweptRange const cells = inChunk(t - 2, 1);
+    sums.kinetic_before += sweptGather(stage, cells.begin, cells.end);
+    SweptRange const nodes = clipped({node, chunks.node_end[t - 2]}, wanted_nodes);
+    sweptNodes(stage, nodes.begin, nodes.end, sums);
     node = chunks.node_end[t - 2];
   }
   return sums;

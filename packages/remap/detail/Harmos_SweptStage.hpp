@@ -51,7 +51,8 @@ enum SweptBlock : int
   SecondBit = 1 << 5,   // << i: and through the opposite face i + 2 as well as i = 0, 1
   BoundaryBit = 1 << 8, // some cell has no neighbour beyond one of its faces
   WholeBit = 1 << 9,    // there are pack_width cells, all pure
-  AcrossBit = 1 << 10   // << k: as RunBit, but the run's rows begin in one tile and end in another
+  AcrossBit = 1 << 10,  // << k: as RunBit, but the run's rows begin in one tile and end in another
+  OwnedBit = 1 << 14    // no pure cell is another rank's
 };
 
 /// Rows of a tile of SweptWindow, and what lies between its columns: a row's fall on different sets of the cache.
@@ -70,6 +71,12 @@ struct SweptWindow
   View<double *[4]> spread; // order 3: the moved cell's central second moments xx, xy, yy over its volume
 };
 
+/// Cells or nodes from `begin` to `end`.
+struct SweptRange
+{
+  int begin = 0, end = 0;
+};
+
 /// Order of stage 1: cells in chunks, so large that vertex neighbours are at most one chunk apart. While the geometry
 /// of chunk t is computed, fluxes follow in t - 1 and the new records in t - 2; then come the nodes whose cells all
 /// have theirs. Four chunks of rows are in use at a time. Devices take all cells as one chunk.
@@ -78,6 +85,9 @@ struct SweptChunks
   int chunk = 0; // cells, a power of two
   int count = 0;
   std::vector<int> node_end; // count: nodes below have no cell beyond the chunk
+  SweptRange all_cells, all_nodes;
+  SweptRange within[4]; // where the cells up to k layers from owned ones lie, in whole packs
+  SweptRange own_nodes; // where the nodes of owned cells lie
 };
 
 SweptChunks sweptChunks(Mesh const &mesh);
@@ -127,12 +137,11 @@ struct SweptStage
   RemapLimiter limiter;
   double const *ranges; // fieldRanges: rows of 32 by material; null unless RangeInside
 
-  bool all_owned; // no cell is another rank's
   RowPointer<int, 4> cell_node, face_neighbour;
   RowPointer<double, 2> position; // at the start of the motion
   RowPointer<double, 2> target;   // of the mesh
   bool retargeted;                // these are not the same
-  int const *cell_depth, *node_owned;
+  int const *node_owned;
   int const *first_item, *item;           // mesh.node_cell
   int const *first_neighbour, *neighbour; // mesh.cell_neighbour
   int const *node_condition;
@@ -247,8 +256,11 @@ double sweptGather(SweptStage const &stage, int begin, int end);
 /// imposed where the node is final (no interface cell around) and has moved.
 void sweptNodes(SweptStage const &stage, int begin, int end, SweptSums &sums);
 
-/// All of stage 1, over `cells` cells.
-SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, int cells);
+/// All of stage 1.
+///
+/// \param owned_alone Only what the velocities of owned cells' nodes depend on: records of one layer around those cells,
+///                    fluxes of two, moved cells of three. Elsewhere records and velocities are not set.
+SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, bool owned_alone);
 
 } // namespace RemapDetail
 } // namespace Harmos

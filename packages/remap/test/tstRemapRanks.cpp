@@ -72,3 +72,21 @@ TEST(Ranks, ownedCellsOfAPart_holdTheBitsOfTheWholeInThirdOrder)
     EXPECT_EQ(differences(part, part.remapped(), all), 0) << about_axis;
   }
 }
+
+// Where a part holds no interface, only three layers of its halo are swept: those that stand apart in its numbers.
+TEST(Ranks, ownedCellsOfAPureBodyCutAcrossItsNumbers_holdTheBitsOfTheWhole)
+{
+  for (bool about_axis : {false, true})
+    for (int order : {1, 2, 3})
+    {
+      RemapResult const all = makeScene({rest(0)}, {}, 0, order, about_axis).remapped();
+      for (int low : {0, 1})
+      {
+        std::vector<int> owner(24 * 20);
+        for (int cell = 0; cell < 24 * 20; ++cell)
+          owner[cell] = cell < 24 * 9 + 5 ? low : 1 - low;
+        Scene part = makeScene({rest(0)}, owner, 7, order, about_axis);
+        EXPECT_EQ(differences(part, part.remapped(), all), 0) << about_axis << " order " << order << " low " << low;
+      }
+    }
+}
