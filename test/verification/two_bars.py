@@ -51,13 +51,16 @@ def test_bars_exchange_their_velocities_wherever_the_interface_is():
     # The slivers with merging off as well as with the default; elsewhere no fragment is that small.
     cases = [(name, cells, {}) for name, cells in OFFSETS.items()]
     cases += [(name + ", no merging", cells, {"numerics/remap/merge_below": 0.0}) for name, cells in OFFSETS.items() if "e-12" in name]
+    cases = [(name, cells, 0.0, more) for name, cells, more in cases]
+    # A gap [cells] that closes first: the run lasts as much longer.
+    cases += [(f"a gap of {gap} cells", cells, gap, {"run/end_time": 5e-4 + gap * H / V}) for cells, gap in ((0.0, 0.3), (0.0, 1.0), (0.5, 1e-3))]
     exits = []
-    for name, cells, more in cases:
-        r = bars(cells * H, **more)
+    for name, cells, gap, more in cases:
+        r = bars(cells * H, gap * H, **more)
         exits.append(velocity(r, "right") / (V / 2))
         times, stress = contact(r)
         plateau = RHO * C * V / 2
-        middle = [s for t, s in zip(times, stress) if 0.5 * L / C < t < 1.5 * L / C]
+        middle = [s for t, s in zip(times, stress) if 0.5 * L / C < t - gap * H / V < 1.5 * L / C]
         mean = sum(middle) / len(middle)
         print(f"  {name}: exit {exits[-1]:.5f}, stress {mean / plateau:.5f}, duration {duration(r, times, stress, plateau) * C / (2 * L):.5f}")
         check("exit velocity of the right bar", abs(velocity(r, "right") - V / 2) / (V / 2), 0.03)
