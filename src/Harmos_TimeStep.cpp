@@ -178,7 +178,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       report.constraint =
           constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass, s.state.velocity,
                               work.predicted, work.half, bodies_n, s.bodies, dt, stress, s.bonds, scene.constraint,
-                              exchange, s.force, &s.interface_cells, outlines);
+                              exchange, s.force, &s.constraint_work, outlines);
     }
     // What moves with its mesh outruns no neighbourhood: only the sheared and thinned cells of the reference would pay.
     if (scene.kinematics == Kinematics::Lagrangian)

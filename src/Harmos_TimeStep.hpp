@@ -61,7 +61,7 @@ struct CycleState
   FilledRegions regions;          // of this state
   LagrangeWork work;              // scratch, kept from cycle to cycle
   RemapWork remap_work;           // the same
-  InterfaceCells interface_cells; // the same
+  ConstraintWork constraint_work; // the same
   std::vector<RigidBody> bodies;
   RigidRows rigid_rows;              // what the bodies fill at
   std::vector<RigidBody> rigid_pose; // these poses

@@ -141,9 +141,9 @@ struct NodalLoad
 };
 
 /// Of the own rows; the others' stay zero.
-View<double *[2]> nodalImpulses(NodalLoad const &load)
+View<double *[2]> nodalImpulses(NodalLoad const &load, WorkArrays const &work)
 {
-  View<double *[2]> const smooth("Harmos::constrain::nodal_impulse", load.s.num_rows);
+  View<double *[2]> const smooth = work.zeros<double *[2]>("Harmos::constrain::nodal_impulse", load.s.num_rows);
   Kokkos::parallel_for(
       "Harmos::constrain::nodalImpulses", RangePolicy(0, load.s.num_own), KOKKOS_LAMBDA(int i) {
         int const own = load.s.own(i);
@@ -217,13 +217,13 @@ int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &optio
 }
 
 void sumBondLoads(ContactSystem const &system, ContactRows const &rows, View<double *[2]> const &impulse,
-                  Exchange const &exchange, std::vector<BondLoad> &load)
+                  Exchange const &exchange, std::vector<BondLoad> &load, WorkArrays const &work)
 {
   if (load.empty())
     return;
   auto const row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
   auto const own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.own);
-  View<double *[2]> const smooth = nodalImpulses({system, rows.row, impulse});
+  View<double *[2]> const smooth = nodalImpulses({system, rows.row, impulse}, work);
   auto const p = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), smooth);
   double largest[3] = {0.0, 0.0, 0.0};
   auto const forEachTerm = [&](auto const &use)

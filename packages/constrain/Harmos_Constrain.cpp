@@ -90,34 +90,38 @@ bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions co
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
-                            Motion const &before, double dt, InterfaceCells *kept, std::vector<Shape> const &outline,
+                            Motion const &before, double dt, ConstraintWork *kept, std::vector<Shape> const &outline,
                             std::vector<RigidBody> const &predicted)
 {
+  ConstraintWork own;
+  ConstraintWork &work = kept != nullptr ? *kept : own;
+  WorkArrays const &arrays = work.arrays;
   if (options.method == ConstraintMethod::Nodal || options.method == ConstraintMethod::Merged)
   {
-    ContactRows rows = buildNodalRows(mesh, pairs, dof_nodes, regions, conditions, table, options);
+    ContactRows rows = buildNodalRows(mesh, pairs, dof_nodes, regions, conditions, table, options, arrays);
     exchange.sum(&rows.num_multipliers, 1);
     if (rows.num_multipliers > 0)
-      exchangeContactRows(mesh, pairs, table, exchange, rows);
+      exchangeContactRows(mesh, pairs, table, exchange, rows, arrays);
     return rows;
   }
   InterfaceSegments segments;
   if (!nothingToSeparate(dof_nodes, conditions))
-    segments = findInterfaceSegments(mesh, pairs, dof_nodes, regions, conditions, options.placement, kept);
+    segments =
+        findInterfaceSegments(mesh, pairs, dof_nodes, regions, conditions, options.placement, &work.cells, arrays);
   double const largest = exchange.max(largestSegment(mesh, segments));
   if (largest == 0.0)
     return {};
-  SegmentBins const bins = binSegments(segments, largest);
-  View<RayHit *> const hit = castRays(mesh, segments, bins);
+  SegmentBins const bins = binSegments(segments, largest, arrays);
+  View<RayHit *> const hit = castRays(mesh, segments, bins, arrays);
   ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, regions, segments, hit, bins, conditions, table, bonds,
-                                      options, before, dt);
+                                      options, before, dt, arrays);
   OutlineRows between;
   if (table.outlined)
     between = findOutlineRows(mesh, segments, conditions, outline, predicted, options, exchange, largest, dt);
   rows.num_multipliers += between.num_multipliers;
   exchange.sum(&rows.num_multipliers, 1);
   if (rows.num_multipliers > 0)
-    exchangeContactRows(mesh, pairs, table, exchange, rows);
+    exchangeContactRows(mesh, pairs, table, exchange, rows, arrays);
   appendRows(between, rows);
   return rows;
 }
@@ -130,7 +134,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
                                      Exchange const &exchange, std::vector<ContactForce> const &last,
-                                     InterfaceCells *kept, std::vector<Shape> const &outline)
+                                     ConstraintWork *kept, std::vector<Shape> const &outline)
 {
   ScopedRegion const region("Harmos::constrain");
   if (!(dt > 0.0))
@@ -143,9 +147,15 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   report.pair_force.assign(width * width, PairForce());
   report.bond_load.assign(bonds.size(), BondLoad());
 
-  BodyTable table = buildBodyTable(bodies, num_materials);
+  WorkArrays arrays;
+  if (kept != nullptr)
+  {
+    kept->arrays.begin();
+    arrays = kept->arrays;
+  }
+  BodyTable table = buildBodyTable(bodies, num_materials, arrays);
   table.outlined = !outline.empty() && options.method == ConstraintMethod::Multipliers;
-  BodyTable const table_n = withBodies(table, bodies_n);
+  BodyTable const table_n = withBodies(table, bodies_n, arrays);
   ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
                                            {velocity_n, table_n}, dt, kept, outline, bodies);
   report.rows = rows.num_multipliers;
@@ -157,23 +167,24 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
       writeHalf(mesh, dof_nodes, predicted, table, half);
     return report;
   }
-  ContactSystem const system =
-      buildContactSystem(rows, dof_nodes, conditions, dof_mass, {velocity_n, table_n}, {predicted, table}, bodies, dt);
+  ContactSystem const system = buildContactSystem(rows, dof_nodes, conditions, dof_mass, {velocity_n, table_n},
+                                                  {predicted, table}, bodies, dt, arrays);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
-  MultiplierSolution const solution = is_explicit ? explicitImpulses({mesh, pairs, {velocity_n, table_n}, pair_stress},
-                                                                     system, rows, dt, options, exchange)
-                                                  : solveMultipliers(mesh, system, rows, dt, options, exchange, last);
+  MultiplierSolution const solution = is_explicit
+                                          ? explicitImpulses({mesh, pairs, {velocity_n, table_n}, pair_stress}, system,
+                                                             rows, dt, options, exchange, arrays)
+                                          : solveMultipliers(mesh, system, rows, dt, options, exchange, last, arrays);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;
   report.force = solution.force;
   moveFreeBodies(system, solution.body_change, bodies);
-  writeHalf(mesh, dof_nodes, predicted, system.num_free > 0 ? withBodies(table, bodies) : table, half);
+  writeHalf(mesh, dof_nodes, predicted, system.num_free > 0 ? withBodies(table, bodies, arrays) : table, half);
   addChange(system, solution.change, half);
   exchangeDofVelocities(exchange, 3, pairs, half);
   sumConstraint(system, rows, solution, mesh, dof_nodes, velocity_n, half,
-                withBodies(table, meanBodies(bodies_n, bodies)), num_materials, exchange, report);
-  sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load);
+                withBodies(table, meanBodies(bodies_n, bodies), arrays), num_materials, exchange, report, arrays);
+  sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load, arrays);
   return report;
 }
 

@@ -39,6 +39,13 @@ struct ContactRow
   KOKKOS_INLINE_FUNCTION double opening() const { return Math::max(gap, 0.0) + bend; }
 };
 
+/// What a caller may keep from cycle to cycle.
+struct ConstraintWork
+{
+  InterfaceCells cells;
+  WorkArrays arrays;
+};
+
 /// Impulse and area of contact between two materials, for contact.csv: on a by b.
 struct PairForce
 {
@@ -103,7 +110,7 @@ struct ConstraintReport
 /// \param pair_stress num_pairs: Cauchy stress xx, yy, xy [Pa]; Nitsche's method alone reads it
 /// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
 /// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.
-/// \param kept Cells with interfaces, from cycle to cycle.
+/// \param kept Cells with interfaces and work arrays, from cycle to cycle.
 /// \param outline By rigid body, at its present pose: contact between rigid bodies, and of free ones with walls, then
 ///                acts where these meet (Harmos_OutlineRows.hpp). Empty: on segments, as between all others.
 /// \return Sums over all ranks. `converged` is false where the tolerance was not reached: the velocities are then those
@@ -119,7 +126,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
                                      std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
                                      std::vector<Bond> const &bonds, ConstraintOptions const &options,
                                      Exchange const &exchange, std::vector<ContactForce> const &last = {},
-                                     InterfaceCells *kept = nullptr, std::vector<Shape> const &outline = {});
+                                     ConstraintWork *kept = nullptr, std::vector<Shape> const &outline = {});
 
 /// The bonds of a scene at its start: one for each slave cell and pair of materials whose bond can break, where they
 /// touch. In the order of the global cells, the same on all ranks. Collective.

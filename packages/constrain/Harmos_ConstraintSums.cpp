@@ -49,10 +49,9 @@ struct RowWorker
   }
 };
 
-View<RowWork *> rowWork(RowWorker const &worker)
+View<RowWork *> rowWork(RowWorker const &worker, WorkArrays const &arrays)
 {
-  View<RowWork *> const work(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::row_work"),
-                             worker.s.num_own);
+  View<RowWork *> const work = arrays.unset<RowWork *>("Harmos::constrain::row_work", worker.s.num_own);
   Kokkos::parallel_for(
       "Harmos::constrain::rowWork", RangePolicy(0, worker.s.num_own),
       KOKKOS_LAMBDA(int i) { work(i) = worker(worker.s.own(i)); });
@@ -67,9 +66,9 @@ struct RemovedImpulse
 };
 
 View<RemovedImpulse *> removedImpulses(ContactSystem const &s, RowWorker const &worker, Mesh const &mesh,
-                                       NodeMaterialPairs const &dof_nodes)
+                                       NodeMaterialPairs const &dof_nodes, WorkArrays const &arrays)
 {
-  View<RemovedImpulse *> const removed("Harmos::constrain::removed", s.num_dofs);
+  View<RemovedImpulse *> const removed = arrays.unset<RemovedImpulse *>("Harmos::constrain::removed", s.num_dofs);
   View<double *[2]> const p = worker.impulse, velocity_n = worker.velocity_n, half = worker.half;
   Kokkos::parallel_for(
       "Harmos::constrain::removedImpulses", RangePolicy(0, s.num_dofs), KOKKOS_LAMBDA(int i) {
@@ -158,15 +157,15 @@ void addRow(ContactRow const &row, RowWork const &work, double normal_impulse, b
 void sumConstraint(ContactSystem const &system, ContactRows const &rows, MultiplierSolution const &solution,
                    Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity_n,
                    View<double *[2]> const &half, BodyTable const &mean_bodies, int num_materials,
-                   Exchange const &exchange, ConstraintReport &report)
+                   Exchange const &exchange, ConstraintReport &report, WorkArrays const &arrays)
 {
   RowWorker const worker{system, rows.row, solution.impulse, velocity_n, half, mean_bodies};
   auto const row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
   auto const own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.own);
   auto const p = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), solution.impulse);
-  auto const work = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rowWork(worker));
-  auto const removed =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), removedImpulses(system, worker, mesh, dof_nodes));
+  auto const work = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rowWork(worker, arrays));
+  auto const removed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(),
+                                                           removedImpulses(system, worker, mesh, dof_nodes, arrays));
   auto const body = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mean_bodies.body);
   std::vector<RigidBody> const bodies(body.data(), body.data() + body.extent(0));
 

@@ -21,12 +21,12 @@ namespace Harmos
 void sumConstraint(ContactSystem const &system, ContactRows const &rows, MultiplierSolution const &solution,
                    Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity_n,
                    View<double *[2]> const &half, BodyTable const &mean_bodies, int num_materials,
-                   Exchange const &exchange, ConstraintReport &report);
+                   Exchange const &exchange, ConstraintReport &report, WorkArrays const &arrays = {});
 
 /// Add up what the own rows of all ranks carry around their bonds, as their nodes feel it: the same bits on any number
 /// of ranks. Collective.
 void sumBondLoads(ContactSystem const &system, ContactRows const &rows, View<double *[2]> const &impulse,
-                  Exchange const &exchange, std::vector<BondLoad> &load);
+                  Exchange const &exchange, std::vector<BondLoad> &load, WorkArrays const &work = {});
 
 } // namespace Harmos
 

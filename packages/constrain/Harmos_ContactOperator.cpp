@@ -48,12 +48,14 @@ void shareImpulses(TravellingRows const &rows, Exchange const &exchange, PackedR
 
 } // namespace
 
-ContactOperator::ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange)
-    : system_(system), rows_(rows), exchange_(exchange),
-      sent_(packedRows(rows.travelling.sent_offset, static_cast<int>(rows.travelling.sent.extent(0)), 2)),
-      received_(packedRows(rows.travelling.received_offset, static_cast<int>(rows.travelling.received.extent(0)), 2)),
-      change_("Harmos::constrain::change", system.num_dofs),
-      body_change_("Harmos::constrain::body_change", system.num_free)
+ContactOperator::ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange,
+                                 WorkArrays const &work)
+    : system_(system), rows_(rows), exchange_(exchange), work_(work),
+      sent_(packedRows(rows.travelling.sent_offset, static_cast<int>(rows.travelling.sent.extent(0)), 2, work)),
+      received_(
+          packedRows(rows.travelling.received_offset, static_cast<int>(rows.travelling.received.extent(0)), 2, work)),
+      change_(work.zeros<double *[2]>("Harmos::constrain::change", system.num_dofs)),
+      body_change_(work.zeros<double *[3]>("Harmos::constrain::body_change", system.num_free))
 {
 }
 
@@ -61,7 +63,7 @@ void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> cons
 {
   shareImpulses(rows_.travelling, exchange_, sent_, received_, x);
   velocityChange(system_, x, change_);
-  bodyVelocityChange(system_, x, exchange_, body_change_);
+  bodyVelocityChange(system_, x, exchange_, body_change_, work_);
   ContactSystem const s = system_;
   View<double *[2]> const change = change_, result = out;
   View<double *[3]> const body_change = body_change_;

@@ -11,7 +11,8 @@ namespace Harmos
 class ContactOperator
 {
 public:
-  ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange);
+  ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange,
+                  WorkArrays const &work);
 
   /// \param x Impulses; the halo rows' are replaced by their owners'. \param out Own rows: A x. Collective.
   void product(View<double *[2]> const &x, View<double *[2]> const &out) const;
@@ -34,6 +35,7 @@ private:
   ContactSystem const &system_;
   ContactRows const &rows_;
   Exchange const &exchange_;
+  WorkArrays const work_;
   PackedRows sent_, received_; // impulses of the rows that travel
   View<double *[2]> change_;
   View<double *[3]> body_change_;

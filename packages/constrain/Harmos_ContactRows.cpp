@@ -8,30 +8,24 @@
 namespace Harmos
 {
 
-BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials)
+BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials, WorkArrays const &work)
 {
-  BodyTable table{View<int *>("Harmos::constrain::body_of_material", num_materials),
-                  View<RigidBody *>("Harmos::constrain::body", bodies.size())};
-  auto const of_material = Kokkos::create_mirror_view(table.of_material);
-  auto const body = Kokkos::create_mirror_view(table.body);
-  Kokkos::deep_copy(of_material, -1);
+  std::vector<int> of_material(num_materials, -1);
   for (std::size_t b = 0; b < bodies.size(); ++b)
   {
     int const material = bodies[b].material;
     if (material < 0 || material >= num_materials)
       throw std::runtime_error("rigid body " + std::to_string(b) + ": material " + std::to_string(material) +
                                " is not in 0.." + std::to_string(num_materials - 1));
-    of_material(material) = static_cast<int>(b);
-    body(b) = bodies[b];
+    of_material[material] = static_cast<int>(b);
   }
-  Kokkos::deep_copy(table.of_material, of_material);
-  Kokkos::deep_copy(table.body, body);
-  return table;
+  return {work.copyOf("Harmos::constrain::body_of_material", of_material),
+          work.copyOf("Harmos::constrain::body", bodies)};
 }
 
-BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies)
+BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies, WorkArrays const &work)
 {
-  return {table.of_material, deviceCopy("Harmos::constrain::body", bodies)};
+  return {table.of_material, work.copyOf("Harmos::constrain::body", bodies)};
 }
 
 namespace
@@ -61,20 +55,21 @@ struct FacingSegments
 };
 
 FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
-                              SegmentBins const &bins)
+                              SegmentBins const &bins, WorkArrays const &work)
 {
   constexpr double least_cosine = 0.9; // of the facets that the fit takes
   int const count = static_cast<int>(bins.item.extent(0));
-  View<int *> const serves(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::serves"), count);
+  View<int *> const serves = work.unset<int *>("Harmos::constrain::serves", count);
   View<BinnedSegment *> const item = bins.item;
   Kokkos::parallel_for(
       "Harmos::constrain::serves", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
         RayHit const &h = hit(item(i).segment);
         serves(i) = h.segment >= 0 && h.cosine >= least_cosine ? 1 : 0;
       });
-  FacingSegments const facing{chosenItems(bins, serves), {}};
+  FacingSegments const facing{chosenItems(bins, serves, work), {}};
   int const num_facing = static_cast<int>(facing.bins.item.extent(0));
-  View<double **> const column("Harmos::constrain::facing", num_facing_columns, num_facing + pack_width);
+  int const room = num_facing + pack_width; // what lies behind the last one is masked out, but compared with
+  View<double **> const column = work.zeros<double **>("Harmos::constrain::facing", num_facing_columns, room);
   View<BinnedSegment *> const chosen = facing.bins.item;
   Kokkos::parallel_for(
       "Harmos::constrain::facing", RangePolicy(0, num_facing), KOKKOS_LAMBDA(int i) {
@@ -440,7 +435,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                              FilledRegions const &regions, InterfaceSegments const &segments, View<RayHit *> const &hit,
                              SegmentBins const &bins, BoundaryConditions const &conditions, BodyTable const &bodies,
                              std::vector<Bond> const &bonds, ConstraintOptions const &options, Motion const &before,
-                             double dt)
+                             double dt, WorkArrays const &work)
 {
   RowBuilder const builder{mesh,
                            pairs,
@@ -448,22 +443,20 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                            {mesh, pairs, regions, options.short_segments, options.shortest_segment},
                            segments.segment,
                            hit,
-                           facingSegments(segments.segment, hit, bins),
+                           facingSegments(segments.segment, hit, bins, work),
                            bodies,
                            conditions.boundary,
-                           deviceCopy("Harmos::constrain::bond", bonds),
+                           work.copyOf("Harmos::constrain::bond", bonds),
                            options,
                            bins,
                            segments.count,
                            before,
                            dt};
-  View<PlannedRows *> const planned(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::planned"),
-                                    segments.count);
+  View<PlannedRows *> const planned = work.unset<PlannedRows *>("Harmos::constrain::planned", segments.count);
   Kokkos::parallel_for(
       "Harmos::constrain::planRows", RangePolicy(0, segments.count),
       KOKKOS_LAMBDA(int i) { planned(i) = builder.plan(i); });
-  View<int *> const place(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::row_place"),
-                          segments.count);
+  View<int *> const place = work.unset<int *>("Harmos::constrain::row_place", segments.count);
   ContactRows rows;
   Kokkos::parallel_scan(
       "Harmos::constrain::countRows", RangePolicy(0, segments.count),
@@ -474,8 +467,8 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
       },
       rows.count);
   rows.num_own = rows.count;
-  rows.row = View<ContactRow *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::row"), rows.count);
-  rows.own = View<int *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::own_row"), rows.count);
+  rows.row = work.unset<ContactRow *>("Harmos::constrain::row", rows.count);
+  rows.own = work.unset<int *>("Harmos::constrain::own_row", rows.count);
   View<ContactRow *> const row = rows.row;
   View<int *> const own = rows.own;
   Kokkos::parallel_reduce(

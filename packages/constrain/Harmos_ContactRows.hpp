@@ -54,12 +54,12 @@ struct Motion
 constexpr int max_cell_rows = 2 * max_cell_segments;
 
 /// Room for packed rows of `width` numbers; `total` = the last of the offsets.
-PackedRows packedRows(View<int *> const &offset, int total, int width);
+PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArrays const &work);
 
-BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials);
+BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials, WorkArrays const &work = {});
 
 /// The table of the same bodies at another time.
-BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies);
+BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies, WorkArrays const &work = {});
 
 /// One row for every owned slave segment that carries one, or two: a facet that comes up tilted is through with one end
 /// while its middle is still apart, and leaves an overlap of length^2 tan(tilt) / 8. So where an end comes by more than
@@ -81,7 +81,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                              FilledRegions const &regions, InterfaceSegments const &segments, View<RayHit *> const &hit,
                              SegmentBins const &bins, BoundaryConditions const &conditions, BodyTable const &bodies,
                              std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                             Motion const &before = {}, double dt = 0.0);
+                             Motion const &before = {}, double dt = 0.0, WorkArrays const &work = {});
 
 /// One row for every two materials that move a node (Merged: for every two that follow each other in its list, tied),
 /// where they move it: G v = n . (v_b - v_a) of the node's own dofs, n the direction from the volume of a to that of b
@@ -89,20 +89,21 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
 /// Throws std::runtime_error where more than six materials (merged: 17) meet at a node.
 ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                            FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
-                           ConstraintOptions const &options);
+                           ConstraintOptions const &options, WorkArrays const &work = {});
 
 /// The rows of this rank, with those of its halo where there are several ranks: segments, rays, normals, rows. Without
 /// interface on any rank one reduction tells that there are none. Collective.
+/// \param kept Room for the arrays, those of the result included; without it they own their memory.
 /// \param outline, predicted Of the rigid bodies, where their contact comes from outlines (bodies.outlined).
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
-                            Motion const &before = {}, double dt = 0.0, InterfaceCells *kept = nullptr,
+                            Motion const &before = {}, double dt = 0.0, ConstraintWork *kept = nullptr,
                             std::vector<Shape> const &outline = {}, std::vector<RigidBody> const &predicted = {});
 
 /// Give every rank the rows of its halo to depth row_halo. With one rank: nothing.
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
-                         Exchange const &exchange, ContactRows &rows);
+                         Exchange const &exchange, ContactRows &rows, WorkArrays const &work = {});
 
 } // namespace Harmos
 

@@ -15,19 +15,12 @@ KOKKOS_INLINE_FUNCTION int dofOf(ContactRow const &row, int slot)
   return side[slot & 3];
 }
 
-/// An array that the next kernel fills.
-template <class T>
-View<T> unset(char const *label, int size)
-{
-  return View<T>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
-}
-
 /// Number the dof nodes that rows touch and list the rows at each, in key order.
-void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &system)
+void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &system, WorkArrays const &work)
 {
   View<ContactRow *> const row = rows.row;
-  View<int *> const uses("Harmos::constrain::dof_uses", num_dof_nodes);
-  View<int *> const place = unset<int *>("Harmos::constrain::dof_place", num_dof_nodes); // of used ones alone
+  View<int *> const uses = work.zeros<int *>("Harmos::constrain::dof_uses", num_dof_nodes);
+  View<int *> const place = work.unset<int *>("Harmos::constrain::dof_place", num_dof_nodes); // of used ones alone
   Kokkos::parallel_for(
       "Harmos::constrain::countUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
@@ -38,8 +31,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
         }
       });
   int const most = Math::min(num_dof_nodes, 8 * rows.count);
-  View<int *> const dof_node = unset<int *>("Harmos::constrain::contact_dof_node", most);
-  View<int *> const offset("Harmos::constrain::rows_of_offset", most + 1);
+  View<int *> const dof_node = work.unset<int *>("Harmos::constrain::contact_dof_node", most);
+  View<int *> const offset = work.zeros<int *>("Harmos::constrain::rows_of_offset", most + 1);
   Kokkos::parallel_scan(
       "Harmos::constrain::numberDofs", RangePolicy(0, num_dof_nodes),
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
@@ -54,7 +47,7 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
         ++sum;
       },
       system.num_dofs);
-  View<int *> const filled("Harmos::constrain::rows_of_filled", system.num_dofs);
+  View<int *> const filled = work.zeros<int *>("Harmos::constrain::rows_of_filled", system.num_dofs);
   int entries = 0;
   Kokkos::parallel_scan(
       "Harmos::constrain::scanUses", RangePolicy(0, system.num_dofs + 1),
@@ -64,7 +57,7 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
           offset(i) = sum;
       },
       entries);
-  View<int *> const item = unset<int *>("Harmos::constrain::rows_of", entries);
+  View<int *> const item = work.unset<int *>("Harmos::constrain::rows_of", entries);
   View<SystemRow *> const compact = system.row;
   Kokkos::parallel_for(
       "Harmos::constrain::fillUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
@@ -92,10 +85,10 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
 
 /// Masses and node conditions of the contact dofs.
 void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
-                View<double *> const &dof_mass, ContactSystem &system)
+                View<double *> const &dof_mass, ContactSystem &system, WorkArrays const &work)
 {
-  View<double *> const inverse_mass = unset<double *>("Harmos::constrain::inverse_mass", system.num_dofs);
-  View<NodeCondition *> const condition = unset<NodeCondition *>("Harmos::constrain::condition", system.num_dofs);
+  View<double *> const inverse_mass = work.unset<double *>("Harmos::constrain::inverse_mass", system.num_dofs);
+  View<NodeCondition *> const condition = work.unset<NodeCondition *>("Harmos::constrain::condition", system.num_dofs);
   View<int *> const dof_node = system.dof_node;
   Kokkos::parallel_for(
       "Harmos::constrain::gatherDofs", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
@@ -110,9 +103,9 @@ void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &co
 }
 
 /// Compact numbers of the free bodies; -1 for others.
-View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem &system)
+View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem &system, WorkArrays const &work)
 {
-  View<int *> const number("Harmos::constrain::free_number", bodies.size());
+  View<int *> const number = work.unset<int *>("Harmos::constrain::free_number", bodies.size());
   auto const host = Kokkos::create_mirror_view(number);
   system.free_number = HostView<int *>("Harmos::constrain::free_body", bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -122,8 +115,8 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
       system.free_number(host(b)) = static_cast<int>(b);
   }
   Kokkos::deep_copy(number, host);
-  system.body_inverse_mass = View<double *[3]>("Harmos::constrain::body_inverse_mass", system.num_free);
-  system.body_scale = View<double *[3]>("Harmos::constrain::body_scale", system.num_free);
+  system.body_inverse_mass = work.unset<double *[3]>("Harmos::constrain::body_inverse_mass", system.num_free);
+  system.body_scale = work.unset<double *[3]>("Harmos::constrain::body_scale", system.num_free);
   auto const inverse = Kokkos::create_mirror_view(system.body_inverse_mass);
   auto const scale = Kokkos::create_mirror_view(system.body_scale);
   for (int f = 0; f < system.num_free; ++f)
@@ -228,16 +221,16 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt)
+                                 double dt, WorkArrays const &work)
 {
   ContactSystem system;
   system.num_rows = rows.count;
   system.num_own = rows.num_own;
   system.own = rows.own;
-  system.row = unset<SystemRow *>("Harmos::constrain::system_row", rows.count);
-  numberDofs(rows, dof_nodes.num_dof_nodes, system);
-  gatherDofs(dof_nodes, conditions, dof_mass, system);
-  View<int *> const free_number = numberFreeBodies(bodies, system);
+  system.row = work.unset<SystemRow *>("Harmos::constrain::system_row", rows.count);
+  numberDofs(rows, dof_nodes.num_dof_nodes, system, work);
+  gatherDofs(dof_nodes, conditions, dof_mass, system, work);
+  View<int *> const free_number = numberFreeBodies(bodies, system, work);
   fillRows(rows, before, predicted, free_number, dt, system);
   ContactSystem const s = system;
   Kokkos::parallel_for(
@@ -286,7 +279,7 @@ KOKKOS_INLINE_FUNCTION double bodyImpulse(ContactSystem const &s, View<double *[
 } // namespace
 
 void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &impulse, Exchange const &exchange,
-                        View<double *[3]> const &change)
+                        View<double *[3]> const &change, WorkArrays const &work)
 {
   if (system.num_free == 0)
     return;
@@ -294,7 +287,7 @@ void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &im
   auto const host = Kokkos::create_mirror_view(change);
   auto const inverse = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.body_inverse_mass);
   auto const scale = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.body_scale);
-  View<double *[3]> const term("Harmos::constrain::body_term", s.num_own);
+  View<double *[3]> const term = work.unset<double *[3]>("Harmos::constrain::body_term", s.num_own);
   for (int body = 0; body < s.num_free; ++body)
   {
     Kokkos::parallel_for(

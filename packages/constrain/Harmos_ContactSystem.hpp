@@ -128,7 +128,7 @@ KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<doub
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt);
+                                 double dt, WorkArrays const &work = {});
 
 /// Change of the dof velocities by impulses: M^-1 P G^T p. [m/s]
 /// \param impulse num_rows (halo rows included); \param change num_dofs
@@ -137,7 +137,7 @@ void velocityChange(ContactSystem const &system, View<double *[2]> const &impuls
 /// Change of the free bodies' velocities (Vx, Vy, omega) by impulses of all ranks' rows; the same bits on every rank.
 /// \param change num_free. Collective when num_free > 0.
 void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &impulse, Exchange const &exchange,
-                        View<double *[3]> const &change);
+                        View<double *[3]> const &change, WorkArrays const &work);
 
 } // namespace Harmos
 

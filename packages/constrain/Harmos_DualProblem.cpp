@@ -28,6 +28,7 @@ struct BlockPattern
 BlockPattern blockPattern(DualRows const &rows)
 {
   BlockPattern m;
+  m.offset.reserve(rows.key.size() + 1);
   m.column.reserve(rows.other.size());
   for (std::size_t i = 0; i < rows.key.size(); ++i)
   {
@@ -92,6 +93,7 @@ LowerTriangle scalarMatrix(BlockPattern const &m, DualRows const &rows, std::vec
                            std::vector<double> const &root)
 {
   std::vector<MatrixEntry> entry;
+  entry.reserve(m.column.size() * (root.size() > rows.row.size() ? 4 : 1));
   int const n = static_cast<int>(m.offset.size()) - 1;
   for (int i = 0; i < n; ++i)
     for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
@@ -111,6 +113,12 @@ LowerTriangle scalarMatrix(BlockPattern const &m, DualRows const &rows, std::vec
 void fillUnknowns(DualRows const &rows, std::vector<int> const &order, std::vector<int> const &first,
                   DualProblem &problem)
 {
+  std::size_t const most = 2 * order.size();
+  problem.root.reserve(most);
+  problem.b.reserve(most);
+  problem.tied.reserve(most);
+  problem.normal_of.reserve(most);
+  problem.friction.reserve(most);
   for (int const i : order)
   {
     DualRow const &row = rows.row[i];
@@ -148,9 +156,9 @@ std::vector<MatrixEntry> merged(std::vector<MatrixEntry> entry)
 
 /// Traces of all ranks' rows in the order of keys.
 std::vector<RowTrace> allTraces(Mesh const &mesh, ContactSystem const &s, ContactRows const &rows,
-                                std::vector<long long> const &own_key, Exchange const &exchange)
+                                std::vector<long long> const &own_key, Exchange const &exchange, WorkArrays const &work)
 {
-  View<RowTrace *> const trace("Harmos::constrain::trace", s.num_own);
+  View<RowTrace *> const trace = work.unset<RowTrace *>("Harmos::constrain::trace", s.num_own);
   View<ContactRow *> const row = rows.row;
   Kokkos::parallel_for(
       "Harmos::constrain::rowTraces", RangePolicy(0, s.num_own),
@@ -280,6 +288,8 @@ DualProblem coarsen(DualProblem const &fine, int unknowns, Spread &spread)
 void DualProblem::multiply(std::vector<double> const &x, std::vector<double> &out) const
 {
   matrix.multiply(x, out);
+  if (body.empty())
+    return;
   std::vector<double> motion(body_weight.size(), 0.0);
   for (BodyEntry const &e : body)
     motion[e.component] += e.jacobian * x[e.unknown];
@@ -324,10 +334,10 @@ std::vector<ContactForce> AssembledProblem::forcesOf(std::vector<double> const &
 }
 
 AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
-                                     Placement placement, Exchange const &exchange)
+                                     Placement placement, Exchange const &exchange, WorkArrays const &work)
 {
-  View<long long *> const key = keysOf(rows);
-  DualRows own = ownRows(system, key);
+  View<long long *> const key = keysOf(rows, work);
+  DualRows own = ownRows(system, key, work);
   std::vector<long long> const own_key = own.key;
   DualRows const all = allRows(std::move(own), exchange);
   BlockPattern const blocks = blockPattern(all);
@@ -347,6 +357,7 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
   for (int f = 0; f < system.num_free; ++f)
     for (int c = 0; c < 3; ++c)
       problem.body_weight.push_back(weight(f, c));
+  problem.first.reserve(rows.count);
   for (long long const k : toHost(key))
   {
     int const i = placeOf(all.key, k);
@@ -357,7 +368,7 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
   assembled.first = first;
   if (sharesMultipliers(placement))
   {
-    std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own_key, exchange);
+    std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own_key, exchange, work);
     int num_groups = 0, coarse = 0;
     auto const shares = vitalGroups(trace, rowKinds(trace, all.row), num_groups);
     assembled.spread = spreadOf(shares, all.row, order, first, num_groups, coarse);

@@ -78,7 +78,7 @@ private:
 
 /// Collective: every rank gets the rows of all.
 AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
-                                     Placement placement, Exchange const &exchange);
+                                     Placement placement, Exchange const &exchange, WorkArrays const &work);
 
 } // namespace Harmos
 

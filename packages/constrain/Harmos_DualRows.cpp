@@ -69,13 +69,6 @@ KOKKOS_INLINE_FUNCTION DualRow dualRow(ContactSystem const &s, int row)
   return d;
 }
 
-/// An array that the next kernel fills.
-template <class T>
-View<T *> unset(char const *label, int size)
-{
-  return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string("Harmos::constrain::") + label), size);
-}
-
 /// Append items offset(i) .. offset(i) + count[i] - 1 of all i.
 template <class T>
 void appendRanges(View<int *> const &offset, std::vector<long long> const &count, View<T *> const &item,
@@ -90,21 +83,21 @@ void appendRanges(View<int *> const &offset, std::vector<long long> const &count
 
 } // namespace
 
-View<long long *> keysOf(ContactRows const &rows)
+View<long long *> keysOf(ContactRows const &rows, WorkArrays const &work)
 {
-  View<long long *> const key(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::key"), rows.count);
+  View<long long *> const key = work.unset<long long *>("Harmos::constrain::key", rows.count);
   View<ContactRow *> const row = rows.row;
   Kokkos::parallel_for(
       "Harmos::constrain::keysOf", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) { key(i) = row(i).key; });
   return key;
 }
 
-DualRows ownRows(ContactSystem const &s, View<long long *> const &key)
+DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArrays const &work)
 {
-  View<DualRow *> const row = unset<DualRow>("dual_row", s.num_own);
-  View<long long *> const own_key = unset<long long>("own_key", s.num_own);
-  View<long long *> const count = unset<long long>("block_count", s.num_own);
-  View<int *> const offset = unset<int>("block_offset", s.num_own);
+  View<DualRow *> const row = work.unset<DualRow *>("Harmos::constrain::dual_row", s.num_own);
+  View<long long *> const own_key = work.unset<long long *>("Harmos::constrain::own_key", s.num_own);
+  View<long long *> const count = work.unset<long long *>("Harmos::constrain::block_count", s.num_own);
+  View<int *> const offset = work.unset<int *>("Harmos::constrain::block_offset", s.num_own);
   int room = 0;
   Kokkos::parallel_scan(
       "Harmos::constrain::countBlocks", RangePolicy(0, s.num_own),
@@ -114,8 +107,8 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key)
         sum += countBlocks(s, s.own(i));
       },
       room);
-  View<DualBlock *> const block = unset<DualBlock>("block", room);
-  View<long long *> const other = unset<long long>("other", room);
+  View<DualBlock *> const block = work.unset<DualBlock *>("Harmos::constrain::block", room);
+  View<long long *> const other = work.unset<long long *>("Harmos::constrain::other", room);
   Kokkos::parallel_for(
       "Harmos::constrain::fillBlocks", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
         row(i) = dualRow(s, s.own(i));

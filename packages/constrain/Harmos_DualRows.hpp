@@ -55,10 +55,10 @@ std::vector<T> gathered(std::vector<T> const &mine, Exchange const &exchange)
 }
 
 /// Keys of this rank's rows, the halo's included.
-View<long long *> keysOf(ContactRows const &rows);
+View<long long *> keysOf(ContactRows const &rows, WorkArrays const &work);
 
 /// This rank's own rows.
-DualRows ownRows(ContactSystem const &system, View<long long *> const &key);
+DualRows ownRows(ContactSystem const &system, View<long long *> const &key, WorkArrays const &work);
 
 /// The rows of all ranks in the order of keys. Collective.
 DualRows allRows(DualRows own, Exchange const &exchange);

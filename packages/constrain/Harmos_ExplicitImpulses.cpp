@@ -60,11 +60,12 @@ struct RowForce
 } // namespace
 
 MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem const &system, ContactRows const &rows,
-                                    double dt, ConstraintOptions const &options, Exchange const &exchange)
+                                    double dt, ConstraintOptions const &options, Exchange const &exchange,
+                                    WorkArrays const &work)
 {
-  ContactOperator const contact(system, rows, exchange);
-  View<double *[2]> const impulse("Harmos::constrain::impulse", system.num_rows);
-  View<double *[2]> const relative("Harmos::constrain::relative", system.num_rows);
+  ContactOperator const contact(system, rows, exchange, work);
+  View<double *[2]> const impulse = work.zeros<double *[2]>("Harmos::constrain::impulse", system.num_rows);
+  View<double *[2]> const relative = work.unset<double *[2]>("Harmos::constrain::relative", system.num_rows);
   RowForce const force{
       before, system, rows.row, options.impedance, options.method == ConstraintMethod::Nitsche, options.penalty, dt};
   View<int *> const own = system.own;

@@ -30,7 +30,8 @@ struct StateBefore
 /// Nitsche, Abh. Math. Sem. Univ. Hamburg 36 (1971) 9-15; weights: Annavarapu, Hautefeuille & Dolbow, Comput. Methods
 /// Appl. Mech. Engng 225-228 (2012) 44-54.
 MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem const &system, ContactRows const &rows,
-                                    double dt, ConstraintOptions const &options, Exchange const &exchange);
+                                    double dt, ConstraintOptions const &options, Exchange const &exchange,
+                                    WorkArrays const &work = {});
 
 } // namespace Harmos
 

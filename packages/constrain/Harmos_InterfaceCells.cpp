@@ -51,10 +51,9 @@ bool hasFreeFace(CellSurface const &surface)
 constexpr int no_material = -1;
 constexpr int several_materials = 1 << 30;
 
-View<int *> nodeMaterials(Mesh const &mesh, NodeMaterialPairs const &dof_nodes)
+View<int *> nodeMaterials(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, WorkArrays const &work)
 {
-  View<int *> const carried(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::node_material"),
-                            mesh.num_nodes);
+  View<int *> const carried = work.unset<int *>("Harmos::constrain::node_material", mesh.num_nodes);
   View<int *> const offset = dof_nodes.offset, material = dof_nodes.material;
   Kokkos::parallel_for(
       "Harmos::constrain::nodeMaterials", RangePolicy(0, mesh.num_nodes), KOKKOS_LAMBDA(int node) {
@@ -66,13 +65,13 @@ View<int *> nodeMaterials(Mesh const &mesh, NodeMaterialPairs const &dof_nodes)
 
 /// 1 for the cells that have two materials, or a contact wall, within two cells around them. Those are then at the
 /// nodes of one cell, which is this one or one of its vertex neighbours.
-View<int *> cellsNearOthers(CellSurface const &surface, NodeMaterialPairs const &dof_nodes)
+View<int *> cellsNearOthers(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, WorkArrays const &work)
 {
   View<int *[4]> const cell_node = surface.mesh.cell_node;
   Rows const neighbour = surface.mesh.cell_neighbour;
   bool const walls = surface.walls;
-  View<int *> const carried = nodeMaterials(surface.mesh, dof_nodes);
-  View<int *> const near("Harmos::constrain::near_others", surface.mesh.num_cells);
+  View<int *> const carried = nodeMaterials(surface.mesh, dof_nodes, work);
+  View<int *> const near = work.zeros<int *>("Harmos::constrain::near_others", surface.mesh.num_cells);
   Kokkos::parallel_for(
       "Harmos::constrain::nearOthers", RangePolicy(0, surface.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
         int most = no_material;
@@ -102,7 +101,8 @@ CellSurface cellSurface(Mesh const &mesh, CellMaterialPairs const &pairs, Bounda
   return {mesh, pairs, conditions.boundary, hasContactWall(conditions.boundary)};
 }
 
-void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, InterfaceCells &cells)
+void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, InterfaceCells &cells,
+                        WorkArrays const &work)
 {
   Mesh const &mesh = surface.mesh;
   CellMaterialPairs const &pairs = surface.pairs;
@@ -112,7 +112,7 @@ void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof
       cells.boundary.data() == surface.boundary.data())
     return;
   bool const free_faces = same_mesh ? cells.free_faces : hasFreeFace(surface);
-  View<int *> const near = cellsNearOthers(surface, dof_nodes);
+  View<int *> const near = cellsNearOthers(surface, dof_nodes, work);
   int const num_cells = mesh.num_cells, halo = mesh.halo;
   View<int *> const depth = mesh.cell_depth;
   View<int *> const visited(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::interface_cell"),

@@ -4,6 +4,7 @@
 
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_WorkArrays.hpp>
 
 namespace Harmos
 {
@@ -57,7 +58,8 @@ struct InterfaceCells
 };
 
 /// \param dof_nodes Of the surface's pairs.
-void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, InterfaceCells &cells);
+void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, InterfaceCells &cells,
+                        WorkArrays const &work = {});
 
 } // namespace Harmos
 

@@ -386,12 +386,6 @@ struct SegmentFinder
   }
 };
 
-template <class T>
-View<T *> unset(char const *label, int size)
-{
-  return View<T *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, std::string(label)), size);
-}
-
 /// Write the segments of the listed cells one after the other as far as there is room; returns their number.
 int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int num_visited, View<int *> const &first)
 {
@@ -411,24 +405,25 @@ int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int n
 
 InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs,
                                         NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
-                                        BoundaryConditions const &conditions, Placement placement, InterfaceCells *kept)
+                                        BoundaryConditions const &conditions, Placement placement, InterfaceCells *kept,
+                                        WorkArrays const &work)
 {
   constexpr int usual_segments = 4; // of a cell; where there are more the room is enlarged
   SegmentFinder finder{mesh, pairs, regions, cellSurface(mesh, pairs, conditions), {}, placement};
   InterfaceCells own;
   InterfaceCells &cells = kept != nullptr ? *kept : own;
-  listInterfaceCells(finder.surface, dof_nodes, cells);
+  listInterfaceCells(finder.surface, dof_nodes, cells, work);
   if (cells.count == 0)
     return {};
   int const num_visited = cells.count;
   View<int *> const visited = cells.cell;
-  View<int *> const first = unset<int>("Harmos::constrain::first_segment", num_visited);
+  View<int *> const first = work.unset<int *>("Harmos::constrain::first_segment", num_visited);
   InterfaceSegments result;
-  finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", usual_segments * num_visited);
+  finder.segment = work.unset<InterfaceSegment *>("Harmos::constrain::segment", usual_segments * num_visited);
   result.count = writeSegments(finder, visited, num_visited, first);
   if (result.count > static_cast<int>(finder.segment.extent(0)))
   {
-    finder.segment = unset<InterfaceSegment>("Harmos::constrain::segment", result.count);
+    finder.segment = work.unset<InterfaceSegment *>("Harmos::constrain::segment", result.count);
     writeSegments(finder, visited, num_visited, first);
   }
   int const total = result.count;

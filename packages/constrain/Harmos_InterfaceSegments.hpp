@@ -60,7 +60,7 @@ struct InterfaceSegments
 InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs const &pairs,
                                         NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
                                         BoundaryConditions const &conditions, Placement placement,
-                                        InterfaceCells *kept = nullptr);
+                                        InterfaceCells *kept = nullptr, WorkArrays const &work = {});
 
 } // namespace Harmos
 

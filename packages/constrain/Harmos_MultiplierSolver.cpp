@@ -15,18 +15,23 @@ struct Conjugate
 {
   View<double *[2]> p;         // impulses, feasible
   View<double *[2]> r;         // b + A p
-  View<double *[2]> direction; // of p
+  View<double *> reach;        // bounds across n by friction
+  View<double *[2]> direction; // of p; this and what follows of conjugate gradients alone
   View<double *[2]> product;   // A direction
   View<double *[2]> term;      // own rows: summands
-  View<double *> reach;        // bounds across n by friction
   double fixed_step = 1.9;     // of projected gradient steps, below 2 / (norm of the scaled operator)
   bool two_sided = false;      // some row has friction
 
-  explicit Conjugate(ContactSystem const &s)
-      : p("Harmos::constrain::impulse", s.num_rows), r("Harmos::constrain::residual", s.num_rows),
-        direction("Harmos::constrain::direction", s.num_rows), product("Harmos::constrain::product", s.num_rows),
-        term("Harmos::constrain::terms", s.num_own), reach("Harmos::constrain::reach", s.num_rows)
+  Conjugate(ContactSystem const &s, MultiplierMethod method, WorkArrays const &work)
+      : p(work.zeros<double *[2]>("Harmos::constrain::impulse", s.num_rows)),
+        r(work.unset<double *[2]>("Harmos::constrain::residual", s.num_rows)),
+        reach(work.zeros<double *>("Harmos::constrain::reach", s.num_rows))
   {
+    if (method != MultiplierMethod::ConjugateGradients)
+      return;
+    direction = work.zeros<double *[2]>("Harmos::constrain::direction", s.num_rows);
+    product = work.zeros<double *[2]>("Harmos::constrain::product", s.num_rows);
+    term = work.zeros<double *[2]>("Harmos::constrain::terms", s.num_own);
   }
 };
 
@@ -235,9 +240,9 @@ class Solve
 {
 public:
   Solve(ContactSystem const &system, ContactRows const &rows, double dt, ConstraintOptions const &options,
-        Exchange const &exchange)
-      : s_(system), exchange_(exchange), contact_(system, rows, exchange), c_(system),
-        scale_(Math::max(contact_.largestPredicted(dt), 1e-6 * options.speed_scale)),
+        Exchange const &exchange, WorkArrays const &work)
+      : s_(system), exchange_(exchange), contact_(system, rows, exchange, work), c_(system, options.solver, work),
+        work_(work), scale_(Math::max(contact_.largestPredicted(dt), 1e-6 * options.speed_scale)),
         bound_(options.tolerance * scale_), max_iterations_(options.max_iterations)
   {
     c_.two_sided = hasFriction(s_, exchange_);
@@ -280,7 +285,7 @@ public:
   {
     if (nothingFits())
       return;
-    AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, options.placement, exchange_);
+    AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, options.placement, exchange_, work_);
     bool const grouped = sharesMultipliers(options.placement);
     DualSolution const dual =
         projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_,
@@ -401,6 +406,7 @@ private:
   Exchange const &exchange_;
   ContactOperator const contact_;
   Conjugate c_;
+  WorkArrays const work_;
   double const scale_, bound_;
   int const max_iterations_;
   double violation_ = 0.0;
@@ -410,9 +416,9 @@ private:
 
 MultiplierSolution solveMultipliers(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, double dt,
                                     ConstraintOptions const &options, Exchange const &exchange,
-                                    std::vector<ContactForce> const &last)
+                                    std::vector<ContactForce> const &last, WorkArrays const &work)
 {
-  Solve solve(system, rows, dt, options, exchange);
+  Solve solve(system, rows, dt, options, exchange, work);
   if (options.solver == MultiplierMethod::RowSums)
     solve.byRowSums();
   else if (options.solver == MultiplierMethod::ProjectedNewton)

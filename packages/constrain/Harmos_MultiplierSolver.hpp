@@ -45,7 +45,7 @@ struct MultiplierSolution
 /// (2002) 245-256 (friction).
 MultiplierSolution solveMultipliers(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, double dt,
                                     ConstraintOptions const &options, Exchange const &exchange,
-                                    std::vector<ContactForce> const &last);
+                                    std::vector<ContactForce> const &last, WorkArrays const &work = {});
 
 } // namespace Harmos
 

@@ -139,12 +139,12 @@ void checkMaterialsAtNodes(NodeMaterialPairs const &dof_nodes, bool merged)
 
 ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                            FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
-                           ConstraintOptions const &options)
+                           ConstraintOptions const &options, WorkArrays const &work)
 {
   NodalRowBuilder const builder{mesh,       pairs,  dof_nodes,           regions,
                                 conditions, bodies, options.interaction, options.method == ConstraintMethod::Merged};
   checkMaterialsAtNodes(dof_nodes, builder.merged);
-  View<int *> const first("Harmos::constrain::first_nodal_row", mesh.num_cells);
+  View<int *> const first = work.unset<int *>("Harmos::constrain::first_nodal_row", mesh.num_cells);
   ContactRows rows;
   Kokkos::parallel_scan(
       "Harmos::constrain::countNodalRows", RangePolicy(0, mesh.num_cells),
@@ -155,8 +155,8 @@ ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
       },
       rows.count);
   rows.num_own = rows.count;
-  rows.row = View<ContactRow *>("Harmos::constrain::row", rows.count);
-  rows.own = View<int *>("Harmos::constrain::own_row", rows.count);
+  rows.row = work.unset<ContactRow *>("Harmos::constrain::row", rows.count);
+  rows.own = work.unset<int *>("Harmos::constrain::own_row", rows.count);
   View<ContactRow *> const row = rows.row;
   View<int *> const own = rows.own;
   Kokkos::parallel_reduce(

@@ -38,7 +38,7 @@ public:
     while (iterations_ < max_iterations_)
     {
       moveReach();
-      gradient(x_, g_);
+      updateGradient();
       double const reached = violation();
       if (reached <= enough_)
         break;
@@ -47,7 +47,7 @@ public:
       if (!descend())
         safeStep();
     }
-    gradient(x_, g_);
+    updateGradient();
     return {x_, iterations_, violation()};
   }
 
@@ -67,13 +67,27 @@ private:
       out[i] += problem_.b[i];
   }
 
+  /// The gradient at x, which most steps have already.
+  void updateGradient()
+  {
+    if (!current_)
+      gradient(x_, g_);
+    current_ = true;
+  }
+
+  void setUnknown(int i, double x)
+  {
+    current_ = current_ && x == x_[i];
+    x_[i] = x;
+  }
+
   /// Friction's bounds from the impulses along n. Impulses at a bound that their gradient presses on stay at it; what
   /// lies beyond a bound returns to it.
   void moveReach()
   {
     for (int i = 0; i < n_; ++i)
       if (problem_.normal_of[i] < 0)
-        x_[i] = bounds(i).clip(x_[i]);
+        setUnknown(i, bounds(i).clip(x_[i]));
     for (int i = 0; i < n_; ++i)
     {
       if (problem_.normal_of[i] < 0)
@@ -81,7 +95,7 @@ private:
       double const before = reach_[i];
       reach_[i] = problem_.friction[i] * x_[problem_.normal_of[i]];
       bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
-      x_[i] = slides ? (g_[i] < 0.0 ? reach_[i] : -reach_[i]) : bounds(i).clip(x_[i]);
+      setUnknown(i, slides ? (g_[i] < 0.0 ? reach_[i] : -reach_[i]) : bounds(i).clip(x_[i]));
     }
   }
 
@@ -90,14 +104,16 @@ private:
   {
     start_ = violation();
     x_ = start;
-    gradient(x_, g_);
+    current_ = false;
+    updateGradient();
     moveReach();
-    gradient(x_, g_);
+    updateGradient();
     if (violation() < start_)
       return;
     std::fill(x_.begin(), x_.end(), 0.0);
     std::fill(reach_.begin(), reach_.end(), 0.0);
     g_ = problem_.b;
+    current_ = true;
   }
 
   void setShift(double factor, double reached)
@@ -119,7 +135,7 @@ private:
     {
       point = x_;
       moveReach();
-      gradient(x_, g_);
+      updateGradient();
       double const reached = violation();
       worse = reached < 0.5 * least ? 0 : worse + 1;
       if (reached < least)
@@ -130,15 +146,20 @@ private:
       if (least <= enough_ || worse > patience)
         break;
       setShift(0.1, least);
-      gradient(point, slope);
+      if (point == x_)
+        slope = g_;
+      else
+        gradient(point, slope);
       chooseSets(point, slope);
-      gradient(x_, g_);
+      updateGradient();
       int const before = iterations_;
-      Vector const step = newtonStep();
+      newtonStep();
       iterations_ += iterations_ == before ? 1 : 0;
       for (int i = 0; i < n_; ++i)
-        x_[i] += free_[i] ? step[i] : 0.0;
+        x_[i] += free_[i] ? step_[i] : 0.0;
+      current_ = false;
     }
+    current_ = current_ && x_ == best;
     x_ = best;
   }
 
@@ -150,7 +171,7 @@ private:
       ImpulseBounds const limit = bounds(i);
       double const to = point[i] - slope[i];
       free_[i] = limit.low < limit.high && limit.inside(to) ? 1 : 0;
-      x_[i] = free_[i] ? point[i] : limit.clip(to);
+      setUnknown(i, free_[i] ? point[i] : limit.clip(to));
     }
   }
 
@@ -178,47 +199,49 @@ private:
     }
   }
 
-  /// Solves (A + shift) d = -g for the free unknowns; d = -g for the held ones.
+  /// step = d with (A + shift) d = -g for the free unknowns; d = -g for the held ones.
   ///
   /// Dependent rows give A eigenvalues down to nothing, along which a step without a shift is 1e6 times the impulses.
   /// A residual that closing velocities w have left is sqrt(eigenvalue) w along an eigenvector: what has been reached
   /// squared is the eigenvalue that matters next.
-  Vector newtonStep()
+  void newtonStep()
   {
     constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose row sums are at most one
     constexpr int most = 30;
     factor_.factor(problem_.matrix, free_, shift_, least);
-    Vector step(n_, 0.0), residual(n_, 0.0), z, direction(n_, 0.0), product;
+    step_.assign(n_, 0.0);
+    direction_.assign(n_, 0.0);
+    residual_.resize(n_);
     for (int i = 0; i < n_; ++i)
-      residual[i] = free_[i] ? -g_[i] : 0.0;
+      residual_[i] = free_[i] ? -g_[i] : 0.0;
     double before = 0.0;
-    double const good = std::max(0.01 * largest(residual), 0.1 * enough_);
-    for (int k = 0; k < most && iterations_ < max_iterations_ && largest(residual) > good; ++k)
+    double const good = std::max(0.01 * largest(residual_), 0.1 * enough_);
+    for (int k = 0; k < most && iterations_ < max_iterations_ && largest(residual_) > good; ++k)
     {
-      z = residual;
-      factor_.solve(z);
+      z_ = residual_;
+      factor_.solve(z_);
       ++iterations_;
-      double const now = dot(residual, z);
+      double const now = dot(residual_, z_);
       for (int i = 0; i < n_; ++i)
-        direction[i] = z[i] + (k > 0 ? now / before * direction[i] : 0.0);
-      problem_.multiply(direction, product);
+        direction_[i] = z_[i] + (k > 0 ? now / before * direction_[i] : 0.0);
+      problem_.multiply(direction_, product_);
       for (int i = 0; i < n_; ++i)
-        product[i] += shift_ * direction[i];
-      double const curvature = dot(direction, product);
+        product_[i] += shift_ * direction_[i];
+      double const curvature = dot(direction_, product_);
       if (!(curvature > 0.0))
         break;
+      double const length = now / curvature;
       for (int i = 0; i < n_; ++i)
         if (free_[i])
         {
-          step[i] += now / curvature * direction[i];
-          residual[i] -= now / curvature * product[i];
+          step_[i] += length * direction_[i];
+          residual_[i] -= length * product_[i];
         }
       before = now;
     }
     for (int i = 0; i < n_; ++i)
       if (!free_[i])
-        step[i] = -g_[i];
-    return step;
+        step_[i] = -g_[i];
   }
 
   /// Newton steps on a set of free unknowns that shrinks by those which stop the step. \return False: nothing moved,
@@ -229,12 +252,12 @@ private:
     while (iterations_ < max_iterations_)
     {
       int const before = iterations_;
-      Vector const step = newtonStep();
+      newtonStep();
       if (iterations_ == before)
         return false;
-      if (followPath(step))
+      if (followPath())
         return true;
-      double const part = stepToBound(step);
+      double const part = stepToBound();
       moved = moved || part > 0.0;
       if (part >= 1.0 || std::none_of(free_.begin(), free_.end(), [](char f) { return f != 0; }))
         return moved;
@@ -243,23 +266,24 @@ private:
   }
 
   /// Along the projected path x(alpha) = bounds(x + alpha step), where it descends.
-  bool followPath(Vector const &step)
+  bool followPath()
   {
     constexpr double part = 1e-4; // of the descent that the gradient promises
-    Vector change(n_), product;
+    Vector change(n_);
     for (double alpha = 1.0; alpha > 0.1; alpha *= 0.5)
     {
       double promised = 0.0;
       for (int i = 0; i < n_; ++i)
       {
-        change[i] = bounds(i).clip(x_[i] + alpha * step[i]) - x_[i];
+        change[i] = bounds(i).clip(x_[i] + alpha * step_[i]) - x_[i];
         promised += g_[i] * change[i];
       }
-      problem_.multiply(change, product);
-      if (promised < 0.0 && promised + 0.5 * dot(change, product) <= part * promised)
+      problem_.multiply(change, product_);
+      if (promised < 0.0 && promised + 0.5 * dot(change, product_) <= part * promised)
       {
         for (int i = 0; i < n_; ++i)
           x_[i] += change[i];
+        current_ = false;
         return true;
       }
     }
@@ -268,33 +292,34 @@ private:
 
   /// Move the free unknowns until the first of them meets a bound; what does is free no longer.
   /// \return The part of the step that was taken.
-  double stepToBound(Vector const &step)
+  double stepToBound()
   {
     Vector limit(n_, 1e300);
     double part = 1.0;
     for (int i = 0; i < n_; ++i)
     {
       ImpulseBounds const b = bounds(i);
-      if (!free_[i] || step[i] == 0.0)
+      if (!free_[i] || step_[i] == 0.0)
         continue;
-      limit[i] = ((step[i] > 0.0 ? b.high : b.low) - x_[i]) / step[i];
+      limit[i] = ((step_[i] > 0.0 ? b.high : b.low) - x_[i]) / step_[i];
       part = std::min(part, limit[i]);
     }
-    Vector change(n_, 0.0), product;
+    Vector change(n_, 0.0);
     for (int i = 0; i < n_; ++i)
     {
       if (!free_[i])
         continue;
-      double const to = bounds(i).clip(x_[i] + part * step[i]);
+      double const to = bounds(i).clip(x_[i] + part * step_[i]);
       change[i] = to - x_[i];
       x_[i] = to;
       if (limit[i] <= part)
-        x_[i] = step[i] > 0.0 ? bounds(i).high : bounds(i).low;
+        x_[i] = step_[i] > 0.0 ? bounds(i).high : bounds(i).low;
       free_[i] = limit[i] <= part ? 0 : 1;
     }
-    problem_.multiply(change, product);
+    problem_.multiply(change, product_);
     for (int i = 0; i < n_; ++i)
-      g_[i] += product[i];
+      g_[i] += product_[i];
+    current_ = false;
     return part;
   }
 
@@ -303,6 +328,7 @@ private:
     ++iterations_;
     for (int i = 0; i < n_; ++i)
       x_[i] = bounds(i).clip(x_[i] - safe_step_ * g_[i]);
+    current_ = false;
   }
 
   double largest(Vector const &v) const
@@ -319,6 +345,8 @@ private:
   int const n_;
   Vector reach_;
   Vector x_, g_;
+  bool current_ = true; // g is the gradient at x
+  Vector step_, residual_, z_, direction_, product_;
   std::vector<char> free_;
   double const safe_step_;
   double start_ = 0.0, shift_ = 0.0;

@@ -4,9 +4,10 @@
 namespace Harmos
 {
 
-View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, SegmentBins const &bins)
+View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, SegmentBins const &bins,
+                        WorkArrays const &work)
 {
-  View<RayHit *> const hit(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::hit"), segments.count);
+  View<RayHit *> const hit = work.unset<RayHit *>("Harmos::constrain::hit", segments.count);
   View<InterfaceSegment *> const segment = segments.segment;
   int const count = segments.count;
   Kokkos::parallel_for(

@@ -138,7 +138,8 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *>
 ///
 /// A facing surface behind the origin counts (gap 0) within round-off, and where the two cells share no node (blocks of
 /// a moving mesh that overlap slightly) down to deepest_overlap.
-View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, SegmentBins const &bins);
+View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, SegmentBins const &bins,
+                        WorkArrays const &work = {});
 
 } // namespace Harmos
 

@@ -91,20 +91,19 @@ int spread(View<InterfaceSegment *> const &segment, int count, SegmentBins &bins
 
 } // namespace
 
-SegmentBins binSegments(InterfaceSegments const &segments, double largest)
+SegmentBins binSegments(InterfaceSegments const &segments, double largest, WorkArrays const &work)
 {
   int const count = segments.count;
   View<InterfaceSegment *> const segment = segments.segment;
   SegmentBins bins;
   bins.size = largest > 0.0 ? largest : 1.0;
   int const buckets = spread(segment, count, bins);
-  bins.offset = View<int *>("Harmos::constrain::bin_offset", buckets + 1);
-  bins.item =
-      View<BinnedSegment *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bin_item"), count);
-  bins.materials = View<unsigned long long *>("Harmos::constrain::bin_materials", buckets);
-  View<int *> const bucket(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bucket"), count);
-  View<int *> const order(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::bin_order"), count);
-  View<int *> const filled("Harmos::constrain::bin_filled", buckets);
+  bins.offset = work.zeros<int *>("Harmos::constrain::bin_offset", buckets + 1);
+  bins.item = work.unset<BinnedSegment *>("Harmos::constrain::bin_item", count);
+  bins.materials = work.zeros<unsigned long long *>("Harmos::constrain::bin_materials", buckets);
+  View<int *> const bucket = work.unset<int *>("Harmos::constrain::bucket", count);
+  View<int *> const order = work.unset<int *>("Harmos::constrain::bin_order", count);
+  View<int *> const filled = work.zeros<int *>("Harmos::constrain::bin_filled", buckets);
   Kokkos::parallel_for(
       "Harmos::constrain::countBins", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
         bucket(i) = bins.bucket(bins.index(segment(i).midpoint[0]), bins.index(segment(i).midpoint[1]));
@@ -135,11 +134,10 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest)
   return bins;
 }
 
-SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen)
+SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen, WorkArrays const &work)
 {
   int const count = static_cast<int>(bins.item.extent(0)), buckets = static_cast<int>(bins.offset.extent(0)) - 1;
-  View<int *> const place(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::chosen_place"),
-                          count + 1);
+  View<int *> const place = work.unset<int *>("Harmos::constrain::chosen_place", count + 1);
   int total = 0;
   Kokkos::parallel_scan(
       "Harmos::constrain::placeChosen", RangePolicy(0, count + 1),
@@ -150,10 +148,8 @@ SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen)
       },
       total);
   SegmentBins result = bins;
-  result.offset =
-      View<int *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::chosen_offset"), buckets + 1);
-  result.item =
-      View<BinnedSegment *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::chosen_item"), total);
+  result.offset = work.unset<int *>("Harmos::constrain::chosen_offset", buckets + 1);
+  result.item = work.unset<BinnedSegment *>("Harmos::constrain::chosen_item", total);
   Kokkos::parallel_for(
       "Harmos::constrain::chosenOffsets", RangePolicy(0, buckets + 1),
       KOKKOS_LAMBDA(int b) { result.offset(b) = place(bins.offset(b)); });

@@ -113,10 +113,10 @@ double largestSegment(Mesh const &mesh, InterfaceSegments const &segments);
 
 /// \param largest Of all ranks' largestSegment. Own cells decide it: the halo's rim may hold segments that are not
 /// there.
-SegmentBins binSegments(InterfaceSegments const &segments, double largest);
+SegmentBins binSegments(InterfaceSegments const &segments, double largest, WorkArrays const &work = {});
 
 /// The bins with those of their items alone that are chosen (1, else 0); walks meet them in the same order.
-SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen);
+SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen, WorkArrays const &work = {});
 
 } // namespace Harmos
 

@@ -36,6 +36,7 @@ std::vector<int> reverseCuthillMcKee(std::vector<int> const &offset, std::vector
   std::vector<int> start(n), order;
   std::iota(start.begin(), start.end(), 0);
   std::sort(start.begin(), start.end(), fewerNeighbours);
+  order.reserve(n);
   std::vector<char> seen(n, 0);
   auto const append = [&](int i)
   {

@@ -7,11 +7,9 @@
 namespace Harmos
 {
 
-PackedRows packedRows(View<int *> const &offset, int total, int width)
+PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArrays const &work)
 {
-  return {offset,
-          View<double *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::packed_rows"),
-                         static_cast<std::size_t>(total) * width),
+  return {offset, work.unset<double *>("Harmos::constrain::packed_rows", static_cast<std::size_t>(total) * width),
           width};
 }
 
@@ -115,10 +113,10 @@ KOKKOS_INLINE_FUNCTION int firstRowOf(View<ContactRow *> const &row, int count, 
 }
 
 /// Sums of counts: entries + 1.
-View<int *> offsetsOf(View<int *> const &count, int &total)
+View<int *> offsetsOf(View<int *> const &count, int &total, WorkArrays const &work)
 {
   int const entries = static_cast<int>(count.extent(0));
-  View<int *> const offset("Harmos::constrain::travelling_offset", entries + 1);
+  View<int *> const offset = work.zeros<int *>("Harmos::constrain::travelling_offset", entries + 1);
   Kokkos::parallel_scan(
       "Harmos::constrain::offsetsOf", RangePolicy(0, entries),
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
@@ -131,9 +129,10 @@ View<int *> offsetsOf(View<int *> const &count, int &total)
 }
 
 /// Where the rows of each cell begin among those of the rank and its halo: num_cells + 1.
-View<int *> rowsByCell(Mesh const &mesh, ContactRows const &own, HaloCells const &halo, View<int *> const &received)
+View<int *> rowsByCell(Mesh const &mesh, ContactRows const &own, HaloCells const &halo, View<int *> const &received,
+                       WorkArrays const &work)
 {
-  View<int *> const offset("Harmos::constrain::row_offset", mesh.num_cells + 1);
+  View<int *> const offset = work.zeros<int *>("Harmos::constrain::row_offset", mesh.num_cells + 1);
   View<ContactRow *> const row = own.row;
   View<int *> const cell = halo.received;
   Kokkos::parallel_for(
@@ -169,9 +168,10 @@ void packRows(Mesh const &mesh, ContactRows const &own, HaloCells const &halo, P
 }
 
 /// Numbers of the rows of listed cells.
-View<int *> numbersOf(View<int *> const &cell, View<int *> const &offset, View<int *> const &by_cell, int total)
+View<int *> numbersOf(View<int *> const &cell, View<int *> const &offset, View<int *> const &by_cell, int total,
+                      WorkArrays const &work)
 {
-  View<int *> const number("Harmos::constrain::travelling_row", total);
+  View<int *> const number = work.unset<int *>("Harmos::constrain::travelling_row", total);
   Kokkos::parallel_for(
       "Harmos::constrain::numbersOf", RangePolicy(0, cell.extent(0)), KOKKOS_LAMBDA(int i) {
         for (int k = 0; k < offset(i + 1) - offset(i); ++k)
@@ -183,13 +183,13 @@ View<int *> numbersOf(View<int *> const &cell, View<int *> const &offset, View<i
 } // namespace
 
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
-                         Exchange const &exchange, ContactRows &rows)
+                         Exchange const &exchange, ContactRows &rows, WorkArrays const &work)
 {
   if (exchange.size() == 1)
     return;
   HaloCells const halo = exchange.haloCells(row_halo);
-  View<int *> const sent_count("Harmos::constrain::sent_count", halo.sent.extent(0));
-  View<int *> const received_count("Harmos::constrain::received_count", halo.received.extent(0));
+  View<int *> const sent_count = work.unset<int *>("Harmos::constrain::sent_count", halo.sent.extent(0));
+  View<int *> const received_count = work.zeros<int *>("Harmos::constrain::received_count", halo.received.extent(0));
   ContactRows const own = rows;
   Kokkos::parallel_for(
       "Harmos::constrain::countSentRows", RangePolicy(0, halo.sent.extent(0)), KOKKOS_LAMBDA(int i) {
@@ -199,18 +199,18 @@ void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyT
   exchange.exchangeCounts(sent_count, received_count, row_halo);
   TravellingRows &travelling = rows.travelling;
   int num_sent = 0, num_received = 0;
-  travelling.sent_offset = offsetsOf(sent_count, num_sent);
-  travelling.received_offset = offsetsOf(received_count, num_received);
-  PackedRows const sent = packedRows(travelling.sent_offset, num_sent, row_item_width);
-  PackedRows const received = packedRows(travelling.received_offset, num_received, row_item_width);
+  travelling.sent_offset = offsetsOf(sent_count, num_sent, work);
+  travelling.received_offset = offsetsOf(received_count, num_received, work);
+  PackedRows const sent = packedRows(travelling.sent_offset, num_sent, row_item_width, work);
+  PackedRows const received = packedRows(travelling.received_offset, num_received, row_item_width, work);
   packRows(mesh, own, halo, sent);
   exchange.exchangePacked(sent, received, row_halo);
 
-  View<int *> const by_cell = rowsByCell(mesh, own, halo, received_count);
-  travelling.sent = numbersOf(halo.sent, travelling.sent_offset, by_cell, num_sent);
-  travelling.received = numbersOf(halo.received, travelling.received_offset, by_cell, num_received);
+  View<int *> const by_cell = rowsByCell(mesh, own, halo, received_count, work);
+  travelling.sent = numbersOf(halo.sent, travelling.sent_offset, by_cell, num_sent, work);
+  travelling.received = numbersOf(halo.received, travelling.received_offset, by_cell, num_received, work);
   rows.count = own.count + num_received;
-  rows.row = View<ContactRow *>("Harmos::constrain::row", rows.count);
+  rows.row = work.unset<ContactRow *>("Harmos::constrain::row", rows.count);
   View<ContactRow *> const row = rows.row;
   View<int *> const own_number = rows.own, received_number = travelling.received;
   Kokkos::parallel_for(

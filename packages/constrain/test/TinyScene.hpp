@@ -76,6 +76,7 @@ struct TinyScene
   ConstraintOptions options;
   Exchange const *exchange = &serialExchange();
   double dt = 1e-3;
+  ConstraintWork *kept = nullptr;
 
   TinyScene(HostMesh const &host, std::vector<Body> const &body, int num_materials,
             std::vector<BoundaryKind> const &kinds, Kinematics kinematics = Kinematics::Xfem,
@@ -132,7 +133,7 @@ struct TinyScene
   {
     bodies = bodies_n;
     return constrainVelocities(mesh, pairs, dof_nodes, regions, conditions, dof_mass, velocity_n, predicted, half,
-                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange, last, nullptr, outline);
+                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange, last, kept, outline);
   }
 
   void forEachDof(std::function<void(int, int, Vector2)> const &visit) const

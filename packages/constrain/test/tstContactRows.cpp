@@ -357,3 +357,30 @@ TEST(ContactRows, packedAndUnpacked_giveTheSameVelocities)
     for (int d = 0; d < 2; ++d)
       EXPECT_EQ(serial(dof, d), packed(dof, d));
 }
+
+// What a call leaves in kept memory must not reach the next one, which has more rows or fewer.
+TEST(ContactRows, inKeptArrays_giveTheSameVelocitiesAsInNewOnes)
+{
+  ConstraintWork kept;
+  for (int const cells : {6, 20, 9})
+    for (double const offset : {4.321, 5.0})
+    {
+      Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
+      TinyScene scene = split(cells, [&](Quadrilateral const &) { return Plane2{n, offset}; });
+      scene.setVelocity([&](int material, Vector2 const &x) { return (material == 0 ? 10.0 + x[1] : -10.0) * n; });
+      ConstraintReport const anew = scene.constrain();
+      auto const expected = Kokkos::create_mirror(scene.half);
+      Kokkos::deep_copy(expected, scene.half);
+      scene.kept = &kept;
+      for (int call = 0; call < 2; ++call)
+      {
+        ConstraintReport const again = scene.constrain();
+        EXPECT_EQ(again.rows, anew.rows);
+        EXPECT_EQ(again.contact_loss, anew.contact_loss);
+        auto const found = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.half);
+        for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+          for (int d = 0; d < 2; ++d)
+            EXPECT_EQ(found(dof, d), expected(dof, d));
+      }
+    }
+}
