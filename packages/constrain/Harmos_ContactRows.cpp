@@ -135,17 +135,18 @@ struct SampleGatherer
     auto const near =
         both(cellsApart(cell_x, cell_y, 0) <= Pack(most_apart), cellsApart(cell_x, cell_y, 1) <= Pack(most_apart));
     auto const serves = both(both(either(of_a, of_b), near), weight > Pack(0.0));
-    for (int lane = 0; lane < pack_width && i + lane < end; ++lane)
+    if (!any(serves))
+      return;
+    Pack const outward = select(of_a, Pack(1.0), Pack(-1.0)); // of a
+    Pack const normal_x = outward * column(FacingNormalX, i), normal_y = outward * column(FacingNormalY, i);
+    int const lanes = Math::min(pack_width, end - i);
+    for (int lane = 0; lane < lanes; ++lane)
       if (laneOf(serves, lane))
-      {
-        Vector2 const n{facing.column(FacingNormalX, i + lane), facing.column(FacingNormalY, i + lane)};
-        bool const side_a = laneOf(of_a, lane);
         samples.push({{laneOf(x, lane), laneOf(y, lane)},
-                      side_a ? n : -n,
+                      {laneOf(normal_x, lane), laneOf(normal_y, lane)},
                       laneOf(length, lane),
                       laneOf(weight, lane),
-                      side_a ? 0 : 1});
-      }
+                      laneOf(of_a, lane) ? 0 : 1});
   }
 };
 

@@ -29,13 +29,9 @@ BlockPattern blockPattern(DualRows const &rows)
 {
   BlockPattern m;
   m.offset.reserve(rows.key.size() + 1);
-  m.column.reserve(rows.other.size());
-  for (std::size_t i = 0; i < rows.key.size(); ++i)
-  {
-    m.offset.push_back(m.offset.back() + static_cast<int>(rows.count[i]));
-    for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
-      m.column.push_back(rows.other[e] == rows.key[i] ? static_cast<int>(i) : placeOf(rows.key, rows.other[e]));
-  }
+  m.column = rows.other;
+  for (int const count : rows.count)
+    m.offset.push_back(m.offset.back() + count);
   return m;
 }
 
@@ -338,8 +334,10 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
 {
   View<long long *> const key = keysOf(rows, work);
   DualRows own = ownRows(system, key, work);
-  std::vector<long long> const own_key = own.key;
-  DualRows const all = allRows(std::move(own), exchange);
+  bool const grouped = sharesMultipliers(placement);
+  std::vector<long long> const own_key = grouped ? own.key : std::vector<long long>();
+  std::vector<int> place;
+  DualRows const all = allRows(std::move(own), key, exchange, place);
   BlockPattern const blocks = blockPattern(all);
   std::vector<int> const order = orderRows(blocks);
   std::vector<int> first(all.key.size());
@@ -358,15 +356,11 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
     for (int c = 0; c < 3; ++c)
       problem.body_weight.push_back(weight(f, c));
   problem.first.reserve(rows.count);
-  for (long long const k : toHost(key))
-  {
-    int const i = placeOf(all.key, k);
-    bool const known = i < static_cast<int>(all.key.size()) && all.key[i] == k;
-    problem.first.push_back(known ? first[i] : -1);
-  }
+  for (int const i : place)
+    problem.first.push_back(i >= 0 ? first[i] : -1);
   assembled.key = all.key;
   assembled.first = first;
-  if (sharesMultipliers(placement))
+  if (grouped)
   {
     std::vector<RowTrace> const trace = allTraces(mesh, system, rows, own_key, exchange, work);
     int num_groups = 0, coarse = 0;

@@ -71,14 +71,19 @@ KOKKOS_INLINE_FUNCTION DualRow dualRow(ContactSystem const &s, int row)
 
 /// Append items offset(i) .. offset(i) + count[i] - 1 of all i.
 template <class T>
-void appendRanges(View<int *> const &offset, std::vector<long long> const &count, View<T *> const &item,
-                  std::vector<T> &out)
+void appendRanges(View<int *> const &offset, std::vector<int> const &count, View<T *> const &item, std::vector<T> &out)
 {
   auto const begin = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), offset);
   auto const from = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), item);
   out.reserve(std::accumulate(count.begin(), count.end(), std::size_t(0)));
   for (std::size_t i = 0; i < count.size(); ++i)
     out.insert(out.end(), from.data() + begin(i), from.data() + begin(i) + count[i]);
+}
+
+std::vector<long long> sorted(std::vector<long long> keys)
+{
+  std::sort(keys.begin(), keys.end());
+  return keys;
 }
 
 } // namespace
@@ -96,7 +101,7 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArray
 {
   View<DualRow *> const row = work.unset<DualRow *>("Harmos::constrain::dual_row", s.num_own);
   View<long long *> const own_key = work.unset<long long *>("Harmos::constrain::own_key", s.num_own);
-  View<long long *> const count = work.unset<long long *>("Harmos::constrain::block_count", s.num_own);
+  View<int *> const count = work.unset<int *>("Harmos::constrain::block_count", s.num_own);
   View<int *> const offset = work.unset<int *>("Harmos::constrain::block_offset", s.num_own);
   int room = 0;
   Kokkos::parallel_scan(
@@ -108,7 +113,7 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArray
       },
       room);
   View<DualBlock *> const block = work.unset<DualBlock *>("Harmos::constrain::block", room);
-  View<long long *> const other = work.unset<long long *>("Harmos::constrain::other", room);
+  View<int *> const other = work.unset<int *>("Harmos::constrain::other", room);
   Kokkos::parallel_for(
       "Harmos::constrain::fillBlocks", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
         row(i) = dualRow(s, s.own(i));
@@ -119,11 +124,11 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArray
                      [&](int other_row, DualBlock const &b)
                      {
                        int at = begin;
-                       while (at < end && other(at) != key(other_row))
+                       while (at < end && other(at) != other_row)
                          ++at;
                        if (at == end)
                        {
-                         other(end) = key(other_row);
+                         other(end) = other_row;
                          block(end++) = DualBlock{};
                        }
                        for (int k = 0; k < 2; ++k)
@@ -138,27 +143,40 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArray
   return own;
 }
 
-DualRows allRows(DualRows own, Exchange const &exchange)
+DualRows allRows(DualRows own, View<long long *> const &key, Exchange const &exchange, std::vector<int> &place)
 {
+  place.resize(key.extent(0));
   if (exchange.size() == 1)
+  {
+    std::iota(place.begin(), place.end(), 0);
     return own;
-  DualRows const all{gathered(own.key, exchange), gathered(own.row, exchange), gathered(own.count, exchange),
+  }
+  std::vector<long long> all_keys = gathered(own.key, exchange);
+  std::vector<long long> const in_order = sorted(all_keys), here = toHost(key);
+  for (std::size_t i = 0; i < here.size(); ++i)
+  {
+    auto const at = std::lower_bound(in_order.begin(), in_order.end(), here[i]);
+    place[i] = at != in_order.end() && *at == here[i] ? static_cast<int>(at - in_order.begin()) : -1;
+  }
+  for (int &other : own.other)
+    other = place[other];
+  DualRows const all{std::move(all_keys), gathered(own.row, exchange), gathered(own.count, exchange),
                      gathered(own.other, exchange), gathered(own.block, exchange)};
   std::vector<long long> begin(all.count.size() + 1, 0);
   std::partial_sum(all.count.begin(), all.count.end(), begin.begin() + 1);
   std::vector<int> order(all.key.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return all.key[a] < all.key[b]; });
-  DualRows sorted;
+  DualRows rows;
   for (int const i : order)
   {
-    sorted.key.push_back(all.key[i]);
-    sorted.row.push_back(all.row[i]);
-    sorted.count.push_back(all.count[i]);
-    sorted.other.insert(sorted.other.end(), all.other.begin() + begin[i], all.other.begin() + begin[i + 1]);
-    sorted.block.insert(sorted.block.end(), all.block.begin() + begin[i], all.block.begin() + begin[i + 1]);
+    rows.key.push_back(all.key[i]);
+    rows.row.push_back(all.row[i]);
+    rows.count.push_back(all.count[i]);
+    rows.other.insert(rows.other.end(), all.other.begin() + begin[i], all.other.begin() + begin[i + 1]);
+    rows.block.insert(rows.block.end(), all.block.begin() + begin[i], all.block.begin() + begin[i + 1]);
   }
-  return sorted;
+  return rows;
 }
 
 } // namespace Harmos

@@ -30,8 +30,8 @@ struct DualRows
 {
   std::vector<long long> key;
   std::vector<DualRow> row;
-  std::vector<long long> count; // blocks of a row, each with another row
-  std::vector<long long> other; // key of the other row of a block
+  std::vector<int> count; // blocks of a row, each with another row
+  std::vector<int> other; // number of the other row of a block
   std::vector<DualBlock> block;
 };
 
@@ -57,11 +57,12 @@ std::vector<T> gathered(std::vector<T> const &mine, Exchange const &exchange)
 /// Keys of this rank's rows, the halo's included.
 View<long long *> keysOf(ContactRows const &rows, WorkArrays const &work);
 
-/// This rank's own rows.
+/// This rank's own rows; other rows by their numbers on this rank.
 DualRows ownRows(ContactSystem const &system, View<long long *> const &key, WorkArrays const &work);
 
-/// The rows of all ranks in the order of keys. Collective.
-DualRows allRows(DualRows own, Exchange const &exchange);
+/// The rows of all ranks in the order of keys; other rows by their places in it. Collective.
+/// \param key Of this rank's rows, the halo's included. \param place Out: where each of them is; -1: nowhere.
+DualRows allRows(DualRows own, View<long long *> const &key, Exchange const &exchange, std::vector<int> &place);
 
 } // namespace Harmos
 
