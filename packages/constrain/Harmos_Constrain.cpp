@@ -3,6 +3,7 @@
 #include <Harmos_ConstraintSums.hpp>
 #include <Harmos_ExplicitImpulses.hpp>
 #include <Harmos_OutlineRows.hpp>
+#include <Harmos_RowPointer.hpp>
 #include <Harmos_StateExchange.hpp>
 
 #include <stdexcept>
@@ -22,18 +23,21 @@ void writeHalf(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double
     Kokkos::deep_copy(half, predicted);
     return;
   }
+  View<int *> const dof_material = dof_nodes.material, dof_node = dof_nodes.node, of_material = bodies.of_material;
+  View<RigidBody *> const rigid = bodies.body;
+  RowPointer<double, 2> const position(mesh.node_position), from(predicted), to(half);
   Kokkos::parallel_for(
       "Harmos::constrain::writeHalf", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
-        int const material = dof_nodes.material(dof);
-        int const body = material >= 0 ? bodies.of_material(material) : -1;
-        Vector2 v{predicted(dof, 0), predicted(dof, 1)};
+        int const material = dof_material(dof);
+        int const body = material >= 0 ? of_material(material) : -1;
+        Vector2 v{from(dof, 0), from(dof, 1)};
         if (body >= 0)
         {
-          int const node = dof_nodes.node(dof);
-          v = bodies.body(body).velocityAt({mesh.node_position(node, 0), mesh.node_position(node, 1)});
+          int const node = dof_node(dof);
+          v = rigid(body).velocityAt({position(node, 0), position(node, 1)});
         }
-        half(dof, 0) = v[0];
-        half(dof, 1) = v[1];
+        to(dof, 0) = v[0];
+        to(dof, 1) = v[1];
       });
 }
 

@@ -24,9 +24,13 @@ class Newton
 {
 public:
   Newton(DualProblem const &problem, double enough, int max_iterations)
-      : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), reach_(n_, 0.0),
-        x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace()))
+      : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), x_(n_, 0.0),
+        g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace()))
   {
+    constexpr double none = 1.0e300;
+    bounds_.reserve(n_);
+    for (int i = 0; i < n_; ++i)
+      bounds_.push_back(rubs(i) ? ImpulseBounds{0.0, 0.0} : ImpulseBounds{problem.tied[i] ? -none : 0.0, none});
   }
 
   /// Every round counts at least one iteration, so that it ends.
@@ -52,13 +56,8 @@ public:
   }
 
 private:
-  ImpulseBounds bounds(int i) const
-  {
-    constexpr double none = 1.0e300;
-    if (problem_.tied[i])
-      return {-none, none};
-    return problem_.normal_of[i] < 0 ? ImpulseBounds{0.0, none} : ImpulseBounds{-reach_[i], reach_[i]};
-  }
+  /// Across n, by friction.
+  bool rubs(int i) const { return problem_.normal_of[i] >= 0; }
 
   void gradient(Vector const &x, Vector &out) const
   {
@@ -87,15 +86,15 @@ private:
   {
     for (int i = 0; i < n_; ++i)
       if (problem_.normal_of[i] < 0)
-        setUnknown(i, bounds(i).clip(x_[i]));
+        setUnknown(i, bounds_[i].clip(x_[i]));
     for (int i = 0; i < n_; ++i)
     {
       if (problem_.normal_of[i] < 0)
         continue;
-      double const before = reach_[i];
-      reach_[i] = problem_.friction[i] * x_[problem_.normal_of[i]];
+      double const before = bounds_[i].high, reach = problem_.friction[i] * x_[problem_.normal_of[i]];
+      bounds_[i] = {-reach, reach};
       bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
-      setUnknown(i, slides ? (g_[i] < 0.0 ? reach_[i] : -reach_[i]) : bounds(i).clip(x_[i]));
+      setUnknown(i, slides ? (g_[i] < 0.0 ? reach : -reach) : bounds_[i].clip(x_[i]));
     }
   }
 
@@ -111,7 +110,9 @@ private:
     if (violation() < start_)
       return;
     std::fill(x_.begin(), x_.end(), 0.0);
-    std::fill(reach_.begin(), reach_.end(), 0.0);
+    for (int i = 0; i < n_; ++i)
+      if (rubs(i))
+        bounds_[i] = {0.0, 0.0};
     g_ = problem_.b;
     current_ = true;
   }
@@ -129,7 +130,7 @@ private:
   void exchangeActiveSets()
   {
     constexpr int patience = 6;
-    Vector best = x_, point, slope;
+    Vector best = x_, point, slope = g_;
     double least = 1e300;
     for (int worse = 0; worse <= patience && least > enough_ && iterations_ < max_iterations_;)
     {
@@ -148,15 +149,16 @@ private:
       setShift(0.1, least);
       if (point == x_)
         slope = g_;
-      else
-        gradient(point, slope);
       chooseSets(point, slope);
       updateGradient();
       int const before = iterations_;
       newtonStep();
       iterations_ += iterations_ == before ? 1 : 0;
       for (int i = 0; i < n_; ++i)
+      {
         x_[i] += free_[i] ? step_[i] : 0.0;
+        slope[i] = g_[i] + image_[i];
+      }
       current_ = false;
     }
     current_ = current_ && x_ == best;
@@ -168,7 +170,7 @@ private:
   {
     for (int i = 0; i < n_; ++i)
     {
-      ImpulseBounds const limit = bounds(i);
+      ImpulseBounds const limit = bounds_[i];
       double const to = point[i] - slope[i];
       free_[i] = limit.low < limit.high && limit.inside(to) ? 1 : 0;
       setUnknown(i, free_[i] ? point[i] : limit.clip(to));
@@ -179,7 +181,7 @@ private:
   {
     double largest = 0.0;
     for (int i = 0; i < n_; ++i)
-      largest = std::max(largest, problem_.root[i] * bounds(i).violation(x_[i], g_[i]));
+      largest = std::max(largest, problem_.root[i] * bounds_[i].violation(x_[i], g_[i]));
     return largest;
   }
 
@@ -189,17 +191,17 @@ private:
   {
     double projected = 0.0;
     for (int i = 0; i < n_; ++i)
-      projected = std::max(projected, std::fabs(x_[i] - bounds(i).clip(x_[i] - g_[i])));
+      projected = std::max(projected, std::fabs(x_[i] - bounds_[i].clip(x_[i] - g_[i])));
     for (int i = 0; i < n_; ++i)
     {
-      ImpulseBounds const limit = bounds(i);
+      ImpulseBounds const limit = bounds_[i];
       bool const held = limit.low >= limit.high || (g_[i] > 0.0 && x_[i] - limit.low <= projected) ||
                         (g_[i] < 0.0 && limit.high - x_[i] <= projected);
       free_[i] = held ? 0 : 1;
     }
   }
 
-  /// step = d with (A + shift) d = -g for the free unknowns; d = -g for the held ones.
+  /// step = d with (A + shift) d = -g for the free unknowns; d = -g for the held ones. image = A d of the free ones.
   ///
   /// Dependent rows give A eigenvalues down to nothing, along which a step without a shift is 1e6 times the impulses.
   /// A residual that closing velocities w have left is sqrt(eigenvalue) w along an eigenvector: what has been reached
@@ -210,6 +212,7 @@ private:
     constexpr int most = 30;
     factor_.factor(problem_.matrix, free_, shift_, least);
     step_.assign(n_, 0.0);
+    image_.assign(n_, 0.0);
     direction_.assign(n_, 0.0);
     residual_.resize(n_);
     for (int i = 0; i < n_; ++i)
@@ -232,11 +235,11 @@ private:
         break;
       double const length = now / curvature;
       for (int i = 0; i < n_; ++i)
-        if (free_[i])
-        {
-          step_[i] += length * direction_[i];
-          residual_[i] -= length * product_[i];
-        }
+      {
+        step_[i] += length * direction_[i];
+        image_[i] += length * (product_[i] - shift_ * direction_[i]);
+        residual_[i] -= free_[i] ? length * product_[i] : 0.0;
+      }
       before = now;
     }
     for (int i = 0; i < n_; ++i)
@@ -275,7 +278,7 @@ private:
       double promised = 0.0;
       for (int i = 0; i < n_; ++i)
       {
-        change[i] = bounds(i).clip(x_[i] + alpha * step_[i]) - x_[i];
+        change[i] = bounds_[i].clip(x_[i] + alpha * step_[i]) - x_[i];
         promised += g_[i] * change[i];
       }
       problem_.multiply(change, product_);
@@ -298,7 +301,7 @@ private:
     double part = 1.0;
     for (int i = 0; i < n_; ++i)
     {
-      ImpulseBounds const b = bounds(i);
+      ImpulseBounds const b = bounds_[i];
       if (!free_[i] || step_[i] == 0.0)
         continue;
       limit[i] = ((step_[i] > 0.0 ? b.high : b.low) - x_[i]) / step_[i];
@@ -309,11 +312,11 @@ private:
     {
       if (!free_[i])
         continue;
-      double const to = bounds(i).clip(x_[i] + part * step_[i]);
+      double const to = bounds_[i].clip(x_[i] + part * step_[i]);
       change[i] = to - x_[i];
       x_[i] = to;
       if (limit[i] <= part)
-        x_[i] = step_[i] > 0.0 ? bounds(i).high : bounds(i).low;
+        x_[i] = step_[i] > 0.0 ? bounds_[i].high : bounds_[i].low;
       free_[i] = limit[i] <= part ? 0 : 1;
     }
     problem_.multiply(change, product_);
@@ -327,7 +330,7 @@ private:
   {
     ++iterations_;
     for (int i = 0; i < n_; ++i)
-      x_[i] = bounds(i).clip(x_[i] - safe_step_ * g_[i]);
+      x_[i] = bounds_[i].clip(x_[i] - safe_step_ * g_[i]);
     current_ = false;
   }
 
@@ -343,10 +346,10 @@ private:
   double const enough_;
   int const max_iterations_;
   int const n_;
-  Vector reach_;
+  std::vector<ImpulseBounds> bounds_; // across n with friction they follow the impulses along n
   Vector x_, g_;
   bool current_ = true; // g is the gradient at x
-  Vector step_, residual_, z_, direction_, product_;
+  Vector step_, image_, residual_, z_, direction_, product_;
   std::vector<char> free_;
   double const safe_step_;
   double start_ = 0.0, shift_ = 0.0;
