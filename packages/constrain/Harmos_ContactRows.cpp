@@ -183,6 +183,7 @@ struct RowBuilder
   Mesh mesh;
   CellMaterialPairs pairs;
   NodeMaterialPairs dof_nodes;
+  FilledRegions regions;
   SegmentBearing bearing;
   View<InterfaceSegment *> segment;
   View<RayHit *> hit;
@@ -220,7 +221,7 @@ struct RowBuilder
         (a.face >= 0 && a.exposed < options.exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
-    if (a.parts * a.length < bearing.shortest(a, b) * a.cell_size)
+    if (a.parts * a.length < bearing.shortest(mesh, pairs, regions, a, b) * a.cell_size)
       return false;
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
         meetByOutline(a, b))
@@ -441,7 +442,8 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
   RowBuilder const builder{mesh,
                            pairs,
                            dof_nodes,
-                           {mesh, pairs, regions, options.short_segments, options.shortest_segment},
+                           regions,
+                           {options.short_segments, options.shortest_segment},
                            segments.segment,
                            hit,
                            facingSegments(segments.segment, hit, bins, work),

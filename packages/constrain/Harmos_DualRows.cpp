@@ -19,6 +19,10 @@ KOKKOS_INLINE_FUNCTION void forEachBlock(ContactSystem const &s, int row, Visito
     if (dof < 0)
       continue;
     double const scale = s.inverse_mass(dof) * s.weight(row, c);
+    int const directions = s.directions(row);
+    Vector2 free[2]; // directions of the row, as far as the node conditions let them act
+    for (int k = 0; k < directions; ++k)
+      free[k] = s.condition(dof).project(s.direction(row, k));
     for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
     {
       int const other = s.rows_of.item(e) / 8;
@@ -26,9 +30,9 @@ KOKKOS_INLINE_FUNCTION void forEachBlock(ContactSystem const &s, int row, Visito
         break;
       double const w = scale * s.weight(other, s.rows_of.item(e) % 8);
       DualBlock block = {};
-      for (int k = 0; k < s.directions(row); ++k)
+      for (int k = 0; k < directions; ++k)
       {
-        Vector2 const u = w * s.condition(dof).project(s.direction(row, k));
+        Vector2 const u = w * free[k];
         for (int l = 0; l < s.directions(other); ++l)
           block.value[k][l] = dot(u, s.direction(other, l));
       }

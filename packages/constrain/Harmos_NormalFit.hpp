@@ -229,8 +229,8 @@ KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fal
   double const total = laneSum(weights);
   if (!(norm(mean) > 0.0))
     return fallback;
-  // Weights then differ from one by 1e-7, and the ridge is at its least: a third pass turns the normal by some 1e-12.
-  constexpr double next_to_none = 1e-5; // root mean square misfit [cells]
+  // Weights then hardly differ from one, and the ridge is at its least: a third pass turned normals by 1e-10 at most.
+  constexpr double next_to_none = 1e-3; // root mean square misfit [cells]
   int passes = 3;
   Vector2 n = normalised(mean);
   double kappa = 0.1; // the curvature's ridge

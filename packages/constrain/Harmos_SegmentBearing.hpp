@@ -12,9 +12,6 @@ namespace Harmos
 /// How tractions act on the segments of interfaces: in balance with the stress of the materials on both sides.
 struct SegmentBearing
 {
-  Mesh mesh;
-  CellMaterialPairs pairs;
-  FilledRegions regions;
   View<ShortSegments *> kept; // materials; extent 0: all Dropped
   double least_length;        // ConstraintOptions::shortest_segment
 
@@ -43,7 +40,8 @@ struct SegmentBearing
   }
 
   /// Length below which segment a carries no row. [cells]
-  KOKKOS_INLINE_FUNCTION double shortest(InterfaceSegment const &a, InterfaceSegment const &b) const
+  KOKKOS_INLINE_FUNCTION double shortest(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+                                         InterfaceSegment const &a, InterfaceSegment const &b) const
   {
     ShortSegments const found = balance(a, b);
     if (found == ShortSegments::Dropped)
