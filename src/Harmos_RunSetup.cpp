@@ -245,6 +245,15 @@ void warnOfLongCells(Run &run)
   warn(run, text);
 }
 
+void warnOfIdleKeys(Run &run)
+{
+  if (run.deck.idle_keys.empty())
+    return;
+  bool const prescribed = run.deck.prescribed.kind != FieldKind::None;
+  warn(run, joined(run.deck.idle_keys) + ": without effect in this run (" +
+                (prescribed ? "a prescribed velocity" : "these kinematics") + ")");
+}
+
 /// "mesh: 200 x 100 cells", or the cells of all blocks.
 std::string sizeOf(Deck const &deck)
 {
@@ -313,6 +322,7 @@ void setUp(Run &run)
   if (fresh)
     placeTracers(run);
   warnOfLongCells(run);
+  warnOfIdleKeys(run);
 }
 
 void claimDirectory(Run &run)

@@ -171,6 +171,8 @@ struct Deck
   std::vector<PointSpec> probes;
   std::vector<PointSpec> tracers;
 
+  std::vector<std::string> idle_keys; // given, and without effect in these kinematics (idleKeys)
+
   std::string yaml; // the whole deck with defaults, as YAML that reads back to this deck
   std::string json; // the same as a JSON object
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_DeckIdle.hpp>
 #include <Harmos_DeckReader.hpp>
 #include <Harmos_DeckSchema.hpp>
 
@@ -274,6 +275,14 @@ ParameterList parseWith(std::string const &text, std::string const &file, std::v
   return deck;
 }
 
+Deck deckOf(ParameterList const &input, std::string const &file)
+{
+  ParameterList const complete = completeDeck(deckSchema(), input, file);
+  Deck deck = convertDeck(complete, file);
+  deck.idle_keys = idleKeys(complete, deck);
+  return deck;
+}
+
 } // namespace
 
 ParameterList parseDeck(std::string const &text, std::string const &file, std::vector<std::string> const &overrides)
@@ -283,7 +292,7 @@ ParameterList parseDeck(std::string const &text, std::string const &file, std::v
 
 Deck readDeckText(std::string const &text, std::string const &file, std::vector<std::string> const &overrides)
 {
-  return convertDeck(completeDeck(deckSchema(), parseDeck(text, file, overrides), file), file);
+  return deckOf(parseDeck(text, file, overrides), file);
 }
 
 std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm)
@@ -304,8 +313,7 @@ std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm)
 Deck readDeck(std::string const &file, std::vector<std::string> const &overrides, Teuchos::Comm<int> const &comm)
 {
   TextReader const read = [&comm](std::string const &path) { return deckText(path, comm); };
-  ParameterList const list = parseWith(read(file), file, overrides, read);
-  return convertDeck(completeDeck(deckSchema(), list, file), file);
+  return deckOf(parseWith(read(file), file, overrides, read), file);
 }
 
 } // namespace Harmos

@@ -138,6 +138,15 @@ def test_long_cells_between_bodies_are_a_warning():
         clean(r)
 
 
+def test_keys_without_use_for_the_kinematics_are_a_warning():
+    """One deck serves the three kinematics: such keys are no error, and not passed over in silence."""
+    for given, named in (({}, None), ({"numerics/remap/order": 1}, "numerics/remap/order: without effect in this run (these kinematics)")):
+        r = harmos(BLOCKS, {**SHORT, **given})
+        assert r.summary["warnings"] == ([named] if named else []), r.summary["warnings"]
+        assert not named or named in r.text, r.text
+        clean(r)
+
+
 def test_a_healthy_time_step_is_good_at_any_end_time():
     r = harmos(BALL, {"run/end_time": 1e6, **SHORT})
     assert r.summary["cycles"] == 3 and not r.summary["warnings"], r.summary

@@ -127,3 +127,30 @@ TEST(DeckPrescribed, sliver_belongsToMomentOfFluid)
   expectRefused("numerics/reconstruction={method: youngs, sliver: 0.1}",
                 "deck.yaml: numerics/reconstruction/sliver: does not belong here, only where method = moment of fluid");
 }
+
+TEST(DeckIdleKeys, keysWithoutUseForTheKinematics_areNamedWhereTheyDifferFromTheirDefaults)
+{
+  EXPECT_TRUE(read().idle_keys.empty());
+  EXPECT_TRUE(read({"numerics/remap/order=1", "numerics/constraint/method=multipliers"}).idle_keys.empty());
+  std::vector<std::string> const of_mechanics = {"numerics/linear_viscosity", "numerics/constraint/solver"};
+  EXPECT_EQ(read({"numerics/linear_viscosity=0.1", "numerics/constraint/solver=row sums"}).idle_keys, of_mechanics);
+
+  auto const blocks = [](std::string const &kinematics, std::vector<std::string> overrides)
+  {
+    overrides.push_back("kinematics=" + kinematics);
+    return readDeckText(R"(harmos:
+  mesh: {x: {from: 0, to: 1, cells: 8}, y: {from: 0, to: 1, cells: 8}}
+  materials: {fluid: {eos: stiffened, density: 1, sound_speed: 1}}
+  bodies: {block: {material: fluid, shape: rectangle, center: [0.5, 0.5], size: [0.5, 0.5]}}
+  run: {end_time: 8}
+)",
+                        "deck.yaml", overrides)
+        .idle_keys;
+  };
+  std::vector<std::string> const given = {"numerics/subzonal_pressure=0.1", "numerics/reconstruction/method=youngs",
+                                          "numerics/remap/order=3", "numerics/remap/limiter=range inside"};
+  std::vector<std::string> const of_remap = {"numerics/reconstruction/method", "numerics/remap/order"};
+  EXPECT_EQ(blocks("lagrangian", given), of_remap);
+  for (char const *kinematics : {"xfem", "single"})
+    EXPECT_EQ(blocks(kinematics, given), std::vector<std::string>{"numerics/subzonal_pressure"});
+}
