@@ -13,7 +13,7 @@ export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OMP_PROC_BIND=${OMP_PROC_BIND:-fals
 harmos_packages="g++ cmake ninja-build ccache
   libtrilinos-tpetra-dev libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libtrilinos-teuchos-dev libtrilinos-epetra-dev
   libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libmetis-dev
-  libgtest-dev libbenchmark-dev libboost-dev
+  libgtest-dev libbenchmark-dev libboost-dev libcgal-dev
   python3 python3-numpy python3-matplotlib python3-h5py python3-pil"
 
 harmos_install_packages()
