@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_InterfaceCells.hpp>
 #include <Harmos_InterfaceSegments.hpp>
-#include <Harmos_StraightEdges.hpp>
 
 #include <stdexcept>
 
@@ -272,9 +271,8 @@ struct SegmentFinder
       if (across >= 0 && coveredByLike(across / 4, material, edge, frame.tolerance))
         return 0;
       EdgeCovers covers;
-      double const tolerance = face < 0 ? least_bend * frame.size : frame.tolerance;
-      coverBy(face < 0 ? cell : across / 4, face < 0 ? pair : -1, edge, tolerance, covers);
-      exposedPieces(edge.length, covers, material, tolerance, pieces);
+      coverBy(face < 0 ? cell : across / 4, face < 0 ? pair : -1, edge, frame.tolerance, covers);
+      exposedPieces(edge.length, covers, material, frame.tolerance, pieces);
     }
     PiecePoints const points = piecePoints(placement, free);
     double const exposed = face < 0 ? 1.0 : pieces.total / frame.face[face].length;
@@ -340,9 +338,7 @@ struct SegmentFinder
     int const first_region = regions.cell_region(cell);
     for (int pair = begin; pair < pairs.offset(cell + 1); ++pair)
     {
-      Region const region =
-          straightened(regions.polygon(first_region + pair - begin), least_bend * frame.size,
-                       [&](Vector2 const &a, Vector2 const &b) { return faceOfEdge(frame, a, b) >= 0; });
+      Region const &region = regions.polygon(first_region + pair - begin);
       for (int i = 0; i < region.size; ++i)
       {
         Vector2 const a = region[i], b = region[region.next(i)];

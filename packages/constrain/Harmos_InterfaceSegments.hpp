@@ -13,11 +13,6 @@ namespace Harmos
 /// Segments of one cell are numbered below this.
 constexpr int max_cell_segments = 64;
 
-/// Thinner voids inside of a cell are none to contact: an edge that bends by less is one edge, what lies within as much
-/// of it is beyond it, and a gap of less is closed. Else a void that opens between two bodies (above close_void_below,
-/// 1e-8 of the cell) makes two rows of one, where round-off of the void says. [cell sizes]
-constexpr double least_bend = 1e-4;
-
 /// Distance of two points of a piece from its ends, part of its length: Gauss points. Nearer to the ends they condition
 /// the rows better, but let a corner of the other body sink deeper between them.
 constexpr double gauss_point = 0.21132486540518713;

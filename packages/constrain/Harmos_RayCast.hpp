@@ -20,7 +20,7 @@ constexpr double crossing_slack = 1e-6;
 struct RayHit
 {
   int segment;   // -1: nothing faces it within one cell size
-  double gap;    // along the ray, >= 0; inside of a cell 0 below least_bend [length]
+  double gap;    // along the ray, >= 0 [length]
   double cosine; // of the ray with the reversed normal of the segment that it meets
 };
 
@@ -122,13 +122,6 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *>
     ray.offer(mesh, segment(to), to);
   if (ray.hit.segment >= 0 && ray.nearest <= shared * from.cell_size)
     return ray.hit;
-  // Where two edges inside of the cell are parted by less than contact sees, they touch.
-  if (ray.hit.segment >= 0 && from.face < 0 && segment(ray.hit.segment).face < 0 &&
-      ray.nearest <= least_bend * from.cell_size)
-  {
-    ray.hit.gap = 0.0;
-    return ray.hit;
-  }
   // Nor can other cells hold anything nearer than what lies nearer than they do: thin voids between two bodies.
   if (ray.hit.segment >= 0 && liesWithin(mesh, cell, from.point, ray.nearest + crossing_slack * bins.size))
     return ray.hit;

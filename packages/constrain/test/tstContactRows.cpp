@@ -90,20 +90,6 @@ double circleArea(Quadrilateral const &cell, Vector2 const &centre, double radiu
 
 } // namespace
 
-// As wedgeOfVoidBelowTheLeastBend_leavesOneSegmentASide; the second row is that of the wedge.
-TEST(ContactRows, wedgeOfVoidBelowTheLeastBend_leavesOneRow)
-{
-  for (double const opening : {5e-7, 1e-3})
-  {
-    auto const rows =
-        rowsOf({rectilinearMesh(uniform(1, 1), uniform(1, 1)),
-                {boxBody(0, 0, 0, 1, 0.5), polygonBody(1, {{0, 0.5 + opening}, {0.4, 0.5}, {1, 0.5}, {1, 1}, {0, 1}})},
-                2,
-                open_box});
-    ASSERT_EQ(rows.size(), opening < 1e-4 ? 1u : 2u) << "opening " << opening;
-  }
-}
-
 TEST(ContactRows, straightLineAt15Degrees_normalsAreExact)
 {
   Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};

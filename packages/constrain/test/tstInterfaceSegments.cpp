@@ -3,7 +3,6 @@
 
 #include <Harmos_InterfaceSegments.hpp>
 #include <Harmos_RayCast.hpp>
-#include <Harmos_StraightEdges.hpp>
 
 #include <gtest/gtest.h>
 
@@ -115,61 +114,6 @@ TEST(InterfaceSegments, edgeThatFacesTwoMaterials_isSplit)
   ASSERT_EQ(lengths.size(), 2u);
   EXPECT_NEAR(lengths[0] + lengths[1], 1.0, 1e-14);
   EXPECT_NEAR(std::min(lengths[0], lengths[1]), 0.4, 1e-14);
-}
-
-// Body 0 lies below y = 0.5, body 1 above, and between them a wedge of void that is `opening` high at x = 0 and ends at
-// x = 0.4. What bends by less than contact sees is one segment a side, with no gap; else the void's end parts both
-// sides.
-TEST(InterfaceSegments, wedgeOfVoidBelowTheLeastBend_leavesOneSegmentASide)
-{
-  for (double const opening : {5e-7, 1e-4, 1e-3})
-  {
-    TinyScene const scene(
-        rectilinearMesh(uniform(1, 1), uniform(1, 1)),
-        {boxBody(0, 0, 0, 1, 0.5), polygonBody(1, {{0, 0.5 + opening}, {0.4, 0.5}, {1, 0.5}, {1, 1}, {0, 1}})}, 2,
-        open_box);
-    auto const s = segmentsOf(scene);
-    auto const hit = hitsOf(scene);
-    ASSERT_EQ(s.size(), opening < 2e-4 ? 2u : 4u) << "opening " << opening;
-    for (std::size_t i = 0; i < s.size(); ++i)
-    {
-      ASSERT_GE(hit[i].segment, 0) << "opening " << opening;
-      if (s.size() == 2)
-      {
-        EXPECT_NEAR(s[i].length, 1.0, 1e-7);
-        EXPECT_EQ(hit[i].gap, 0.0) << "opening " << opening;
-      }
-    }
-  }
-}
-
-// Four corners in a row that each bend by less than what counts, together by more: dropped one after the other, those
-// that went before would end further from the chord than allowed.
-TEST(InterfaceSegments, smallBendsThatAddUp_areKept)
-{
-  auto const arc = [](double x) { return 0.5 - 4e-4 * x * (1.0 - x); };
-  std::vector<Vector2> corner;
-  for (double const x : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0})
-    corner.push_back({x, arc(x)});
-  corner.push_back({1, 1});
-  corner.push_back({0, 1});
-  auto const inside = [](Vector2 const &, Vector2 const &) { return false; };
-  Region region;
-  for (Vector2 const &x : corner)
-    region.push(x);
-  Region const kept = straightened(region, 3.5e-5, inside);
-  EXPECT_LT(kept.size, region.size);
-  for (Vector2 const &x : corner)
-  {
-    double out = -1.0;
-    for (int i = 0; i < kept.size; ++i)
-    {
-      Vector2 const edge = kept[kept.next(i)] - kept[i];
-      out = std::max(out, cross(edge, kept[i] - x) / norm(edge));
-    }
-    EXPECT_LE(out, 3.5e-5);
-  }
-  EXPECT_EQ(straightened(region, 2e-4, inside).size, 4);
 }
 
 // Five strips with gaps in one cell: more segments than the room that is first made for a cell.
