@@ -157,7 +157,8 @@ void checkCycle(Run const &run, CycleReport const &report)
   else if (u.inverted > 0)
     cause = "a moved cell is inverted: " + placeOf(run, u.cell, u.material);
   else if (u.not_a_number > 0)
-    cause = "a value is not a number, or a specific volume not positive: " + placeOf(run, u.cell, u.material);
+    cause = "a value is not a number, a mass negative, or a specific volume not positive: " +
+            placeOf(run, u.cell, u.material);
   else if (report.remap.failures > 0)
     cause = remapFailure(run, report.remap);
   else if (report.reconstruction.failures > 0)

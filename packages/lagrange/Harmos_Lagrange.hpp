@@ -89,7 +89,7 @@ struct PredictionSums
 struct UpdateReport
 {
   long long inverted = 0;     // owned pairs whose moved cell has a non-positive corner area
-  long long not_a_number = 0; // owned pairs with a NaN, or a non-positive specific volume
+  long long not_a_number = 0; // owned pairs with a NaN, a negative mass or a non-positive specific volume
   long long out_of_range = 0; // owned pairs past the equation of state's range (eosInRange)
   int cell = -1;              // the first inverted or not-a-number one (lowest local number), with its material
   int material = -1;

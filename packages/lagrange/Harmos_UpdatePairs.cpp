@@ -64,12 +64,13 @@ KOKKOS_FORCEINLINE_FUNCTION Pack cornerPower(RowPointer<double, 8> const &corner
   return -0.5 * sum;
 }
 
-/// Lanes where nothing is wrong. x - x is not 0 for infinities and NaN.
+/// Lanes where nothing is wrong, no mass negative. x - x is not 0 for infinities and NaN.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION auto isFinite(detail::PairRecord<T> const &r)
 {
-  T const all = r.internal_energy + r.plastic_strain + r.deviator.xx + r.deviator.yy + r.deviator.xy;
-  return both(r.specific_volume > T(0.0), T((r.specific_volume - r.specific_volume) + (all - all)) == T(0.0));
+  T const all = r.mass + r.internal_energy + r.plastic_strain + r.deviator.xx + r.deviator.yy + r.deviator.xy;
+  return both(both(r.specific_volume > T(0.0), no(r.mass < T(0.0))),
+              T((r.specific_volume - r.specific_volume) + (all - all)) == T(0.0));
 }
 
 template <Geometry geometry>

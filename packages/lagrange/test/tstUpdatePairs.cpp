@@ -135,6 +135,22 @@ TEST(UpdatePairs, FoldedCellAndNaN_areCountedAndTheFirstIsNamed)
   EXPECT_EQ(report.out_of_range, 0);
 }
 
+TEST(UpdatePairs, MassesThatAreNegativeOrNoNumbers_areCountedAndTheFirstIsNamed)
+{
+  Scene s = makeScene(3, 3, 0.0, {elastic()}, full);
+  computeCornerForces(s.mesh, s.pairs, s.state, s.materials, s.options, s.work);
+  setHalf(s, [](Vector2) { return Vector2{0.0, 0.0}; });
+  auto const r = onHost(s.state.record);
+  r(3, Mass) = -1e-9;
+  r(5, Mass) = std::numeric_limits<double>::quiet_NaN();
+  Kokkos::deep_copy(s.state.record, r);
+  TimeStepLimit next;
+  auto const report = s.update(1e-6, next);
+  EXPECT_EQ(report.not_a_number, 2);
+  EXPECT_EQ(report.cell, 3);
+  EXPECT_EQ(report.material, 0);
+}
+
 TEST(UpdatePairs, PairsOutOfTheirLawsRange_areCountedAndTheFirstIsNamed)
 {
   Material gas = fluid();
