@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact begins in the step that closes a gap, none earlier: several gaps at once, a tip above cells, faces and nodes, a bar that strikes the same body again."""
+from math import hypot, sqrt
+
+from harness import ROOT, check, clean, harmos, read_columns, run
+
+DECKS = ROOT / "test/verification/decks"
+H = 0.01
+NO_FIELDS = {"output/fields/every_time": 0.0}
+
+
+def loaded(r, pair):
+    """Start, end [s] and force [N/m] of the cycles in which two bodies press on each other."""
+    step = dict(zip(r["time"], r["dt"]))
+    c = read_columns(r.directory / "contact.csv")
+    rows = zip(c["time"], c["a"], c["b"], c["force_x"], c["force_y"])
+    return [(t - step[t], t, hypot(x, y)) for t, a, b, x, y in rows if {a, b} == set(pair) and hypot(x, y) > 0.0]
+
+
+def begins_in_time(r, pair, gap, what, late=1e-3):
+    """`gap(t)`: void between the bodies at a time as long as nothing touches, in cells; the first loaded cycle must close it, `late` cells too late at most."""
+    start, end, _ = loaded(r, pair)[0]
+    print(f"  {what}: void {gap(start):.4f} at the start of the first loaded cycle, {gap(end):.4f} at its end")
+    check("void that is left then, cells", gap(end), 1e-3)
+    check("overlap at its start, cells", -gap(start), late)
+
+
+def test_several_gaps_close_at_once_each_in_its_time():
+    r = harmos(DECKS / "gaps.yaml", NO_FIELDS)
+    for pair, width, speed in (("ab", 0.3, 30.0), ("bc", 2.04, 200.0), ("cd", 0.6, 60.0), ("de", 1e-3, 0.1)):
+        begins_in_time(r, pair, lambda t: width - speed * t / H, f"{width} cells between {pair[0]} and {pair[1]}")
+    check("momentum", r.summary["momentum_error"], 1e-12)
+    clean(r)
+
+
+def test_a_tip_is_felt_when_it_touches_above_a_cell_a_face_or_a_node():
+    # A square on its corner, 14 cells across, comes down on a block whose surface lies on faces, low and high in its cells. With slivers
+    # below 1e-3 from least squares the tip's first one lay flat, and pressed through up to 0.22 of a cell of void.
+    gap, speed, side = 0.4, 200.0, 0.1
+    for surface in (0.2, 0.2037, 0.2082):
+        for x, place in ((0.2, "a node or its column"), (0.2023, "a quarter of a cell"), (0.205, "mid-cell"), (0.3497, "the block's corner")):
+            centre = surface + gap * H + side / sqrt(2.0)
+            r = harmos(DECKS / "gaps.yaml", {
+                "mesh": "{x: {from: 0.0, to: 0.45, cells: 45}, y: {from: 0.0, to: 0.4, cells: 40}}", **NO_FIELDS, "run/end_time": 4e-5,
+                "numerics/reconstruction/sliver": 1e-6,
+                "bodies": f"{{block: {{material: steel, shape: rectangle, center: [0.2, {surface - 0.1!r}], size: [0.3, 0.2]}}, "
+                          f"tip: {{material: steel, shape: rectangle, center: [{x!r}, {centre!r}], size: [{side}, {side}], angle: 45.0, velocity: [0.0, -{speed}]}}}}"})
+            # Rows stand at middles of segments: a tip beside one goes in by a quarter of a cell.
+            begins_in_time(r, ("block", "tip"), lambda t: gap - speed * t / H, f"tip above {place}, surface at {surface}", 0.3)
+            check("momentum", r.summary["momentum_error"], 1e-12)
+            clean(r)
+
+
+def test_a_bar_strikes_the_same_body_again_after_it_has_parted():
+    # Between two fixed blocks, frictionless: right, left, right again. In between no force at all.
+    left, right, speed = 0.1, 0.45, 50.0
+    r = harmos(DECKS / "gaps.yaml", {
+        "materials/rock": "{eos: rigid, density: 7800.0}", "mesh": "{x: {from: 0.0, to: 0.6, cells: 60}, y: {from: 0.0, to: 0.03, cells: 3}}", **NO_FIELDS, "run/end_time": 1.05e-2,
+        "bodies": f"{{left: {{material: rock, shape: rectangle, center: [{left - 0.1!r}, 0.0], size: [0.2, 1.0], motion: fixed}}, "
+                  f"right: {{material: rock, shape: rectangle, center: [{right + 0.1!r}, 0.0], size: [0.2, 1.0], motion: fixed}}, "
+                  f"bar: {{material: steel, shape: rectangle, center: [0.2537, 0.0], size: [0.2, 1.0], velocity: [{speed}, 0.0]}}}}"})
+    visits = []
+    for wall in ("left", "right"):
+        previous = None
+        for start, end, _ in loaded(r, ("bar", wall)):
+            if previous is None or start - previous > 1e-4:
+                visits.append([start, end, wall])
+            visits[-1][1] = previous = end
+    visits.sort()
+    print("  visits:", ", ".join(f"{wall} {1e3 * start:.3f} to {1e3 * end:.3f} ms" for start, end, wall in visits))
+    assert [wall for _, _, wall in visits] == ["right", "left", "right"], visits
+    exact = 2.0 * 0.2 / sqrt(4600.0**2 + 4.0 * 80.0e9 / (3.0 * 7800.0))
+    for start, end, wall in visits:
+        i = min(range(len(r["time"])), key=lambda k: abs(r["time"][k] - start))
+        void = (right - r["bar.x_max"][i] if wall == "right" else r["bar.x_min"][i] - left) / H
+        check(f"{wall}: void at the start of its first cycle, in travels of the bar in a cycle", void / (speed * r["dt"][i + 1] / H), 1.5)
+        check("overlap at its start, cells", -void, 1e-3)
+        check("duration, over 2 L / c", abs((end - start) / exact - 1.0), 0.1)
+    clean(r)
+
+
+run(globals())
