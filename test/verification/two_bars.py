@@ -79,6 +79,7 @@ def test_bars_exchange_their_velocities_wherever_the_interface_is():
         check("exit velocity of the right bar", abs(velocity(r, "right") - V / 2) / (V / 2), 0.03)
         check("exit velocity of the left bar", abs(velocity(r, "left") + V / 2) / (V / 2), 0.03)
         check("plateau stress", abs(mean - plateau) / plateau, 0.01)
+        check("ringing on the plateau, any cycle", max(abs(s - plateau) for s in middle) / plateau, 3e-3)
         check("duration", abs(duration(r, times, stress, plateau) - 2 * L / C) / (2 * L / C), 0.01)
         check("momentum", max(abs(p) for p in r["momentum_x"]) / (2 * r.first("left.mass") * V / 2), 1e-12)
         check("mass", abs(r.last("mass") - r.first("mass")) / r.first("mass"), 1e-12)
