@@ -138,10 +138,17 @@ void convertInteractions(DeckChecker const &check, ParameterList const &list, De
 void convertConstraint(DeckChecker const &check, ParameterList const &list, Deck &deck)
 {
   convertMethod(check, list, deck);
-  deck.constraint.tolerance = list.get<double>("tolerance");
-  deck.constraint.max_iterations = list.get<int>("max_iterations");
-  deck.constraint.shortest_segment = list.get<double>("shortest_segment");
-  deck.constraint.exposed_face = list.get<double>("exposed_face");
+  ConstraintMethod const method = deck.constraint.method;
+  if (method != ConstraintMethod::Penalty && method != ConstraintMethod::Nitsche)
+  {
+    deck.constraint.tolerance = list.get<double>("tolerance");
+    deck.constraint.max_iterations = list.get<int>("max_iterations");
+  }
+  if (method != ConstraintMethod::Nodal && method != ConstraintMethod::Merged)
+  {
+    deck.constraint.shortest_segment = list.get<double>("shortest_segment");
+    deck.constraint.exposed_face = list.get<double>("exposed_face");
+  }
 }
 
 } // namespace Harmos

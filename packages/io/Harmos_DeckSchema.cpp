@@ -242,12 +242,22 @@ void addNumerics(ParameterList &list)
       "operator, for comparison");
   add(c.sublist("solver = projected newton"), "warm_start", constraint.warm_start, rulesOf(KeyType::Bool),
       "begin with the forces of the last cycle");
-  add(c, "tolerance", constraint.tolerance, number({0.0, 1e-2, true, false}), "relative residual of the multipliers");
-  add(c, "max_iterations", constraint.max_iterations, integer({1.0, infinity, false, false}), "limit for one cycle");
-  add(c, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),
-      "interface segments shorter than this part of a cell carry no multiplier");
-  add(c, "exposed_face", constraint.exposed_face, number(between(0.0, 1.0)),
-      "least exposed part of a cell face that carries a multiplier");
+  for (char const *method : {"multipliers", "nodal", "merged"})
+  {
+    ParameterList &solved = c.sublist(std::string("method = ") + method);
+    add(solved, "tolerance", constraint.tolerance, number({0.0, 1e-2, true, false}),
+        "relative residual of the multipliers");
+    add(solved, "max_iterations", constraint.max_iterations, integer({1.0, infinity, false, false}),
+        "limit for one cycle");
+  }
+  for (char const *method : {"multipliers", "penalty", "nitsche"})
+  {
+    ParameterList &on_segments = c.sublist(std::string("method = ") + method);
+    add(on_segments, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),
+        "interface segments shorter than this part of a cell carry no multiplier");
+    add(on_segments, "exposed_face", constraint.exposed_face, number(between(0.0, 1.0)),
+        "least exposed part of a cell face that carries a multiplier");
+  }
 
   RemapOptions const remap;
   ParameterList &m = list.sublist("remap");
