@@ -122,6 +122,16 @@ def test_waves_go_on_ringing_and_do_not_grow():
             clean(r)
 
 
+def test_the_energy_that_contact_takes_is_that_of_half_a_cell_of_each_bar():
+    # On a face the layer of nodes that stops at once holds half a cell: h/(2 L) of the energy, first order in the cell.
+    for cells in (40, 80, 160):
+        h = L / cells
+        r = bars(0.0, **{"mesh/x/cells": round(2.5 / h), "mesh/y": f"{{from: 0.0, to: {h}, cells: 1}}", "run/end_time": 2e-4})
+        taken = r.last("contact_loss") / r.first("kinetic_energy")
+        check(f"{cells} cells: taken by contact {taken:.5f}, over h/(2 L), from one", abs(taken * 2 * L / h - 1.0), 2e-3)
+        clean(r)
+
+
 def leapfrog(courant, linear_viscosity, cells=80):
     """Exit velocity over V/2 of a bar of `cells` linear elements with lumped masses, by central differences, after a rigid wall has stopped its end node."""
     v, mass, stress = [-1.0] * (cells + 1), [0.5] + [1.0] * (cells - 1) + [0.5], [0.0] * cells
