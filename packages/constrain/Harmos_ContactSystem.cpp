@@ -19,7 +19,9 @@ KOKKOS_INLINE_FUNCTION int dofOf(ContactRow const &row, int slot)
 void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &system, WorkArrays const &work)
 {
   View<ContactRow *> const row = rows.row;
-  View<int *> const uses = work.zeros<int *>("Harmos::constrain::dof_uses", num_dof_nodes);
+  constexpr int block = 16; // of dof nodes, most of which no row touches: passed over as a whole
+  int const num_blocks = (num_dof_nodes + block - 1) / block;
+  View<int *> const uses = work.zeros<int *>("Harmos::constrain::dof_uses", block * num_blocks);
   View<int *> const place = work.unset<int *>("Harmos::constrain::dof_place", num_dof_nodes); // of used ones alone
   Kokkos::parallel_for(
       "Harmos::constrain::countUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
@@ -34,17 +36,23 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
   View<int *> const dof_node = work.unset<int *>("Harmos::constrain::contact_dof_node", most);
   View<int *> const offset = work.zeros<int *>("Harmos::constrain::rows_of_offset", most + 1);
   Kokkos::parallel_scan(
-      "Harmos::constrain::numberDofs", RangePolicy(0, num_dof_nodes),
-      KOKKOS_LAMBDA(int i, int &sum, bool final) {
-        if (uses(i) == 0)
-          return;
-        if (final)
+      "Harmos::constrain::numberDofs", RangePolicy(0, num_blocks),
+      KOKKOS_LAMBDA(int b, int &sum, bool final) {
+        int used = 0;
+        for (int i = b * block; i < (b + 1) * block; ++i)
+          used |= uses(i);
+        for (int i = b * block; used != 0 && i < (b + 1) * block; ++i)
         {
-          place(i) = sum;
-          dof_node(sum) = i;
-          offset(sum + 1) = uses(i);
+          if (uses(i) == 0)
+            continue;
+          if (final)
+          {
+            place(i) = sum;
+            dof_node(sum) = i;
+            offset(sum + 1) = uses(i);
+          }
+          ++sum;
         }
-        ++sum;
       },
       system.num_dofs);
   View<int *> const filled = work.zeros<int *>("Harmos::constrain::rows_of_filled", system.num_dofs);

@@ -41,15 +41,14 @@ KOKKOS_INLINE_FUNCTION void forEachBlock(ContactSystem const &s, int row, Visito
   }
 }
 
-/// Number of visits of forEachBlock, which may come to a row more than once.
-KOKKOS_INLINE_FUNCTION int countBlocks(ContactSystem const &s, int row)
+/// Most visits of forEachBlock, which may come to a row more than once: later rows are counted too.
+KOKKOS_INLINE_FUNCTION int mostBlocks(ContactSystem const &s, int row)
 {
   int count = 0;
   for (int c = 0; c < 8; ++c)
   {
     int const dof = s.dof(row, c);
-    for (int e = dof < 0 ? 0 : s.rows_of.offset(dof); dof >= 0 && e < s.rows_of.offset(dof + 1); ++e)
-      count += s.rows_of.item(e) / 8 <= row ? 1 : 0;
+    count += dof < 0 ? 0 : s.rows_of.offset(dof + 1) - s.rows_of.offset(dof);
   }
   return count;
 }
@@ -109,11 +108,11 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArray
   View<int *> const offset = work.unset<int *>("Harmos::constrain::block_offset", s.num_own);
   int room = 0;
   Kokkos::parallel_scan(
-      "Harmos::constrain::countBlocks", RangePolicy(0, s.num_own),
+      "Harmos::constrain::roomForBlocks", RangePolicy(0, s.num_own),
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
         if (final)
           offset(i) = sum;
-        sum += countBlocks(s, s.own(i));
+        sum += mostBlocks(s, s.own(i));
       },
       room);
   View<DualBlock *> const block = work.unset<DualBlock *>("Harmos::constrain::block", room);

@@ -79,6 +79,20 @@ struct Ray
     hit = {number, Math::max(distance, 0.0), -dot(from.normal, target.normal)};
   }
 
+  /// The segments at places i, i + 1, ... below `end` of the bins that `offer` may not turn down at once: a bit each.
+  KOKKOS_FORCEINLINE_FUNCTION unsigned candidates(SegmentBins const &bins, int i, int end) const
+  {
+    constexpr double slack = 1e-9; // more than round-off
+    Pack const x = loadPack(&bins.column(BinX, i)) - Pack(from.point[0]);
+    Pack const y = loadPack(&bins.column(BinY, i)) - Pack(from.point[1]);
+    Pack const farthest = Pack((1.0 + slack) * nearest) + Pack(1.0 + slack) * loadPack(&bins.column(BinExtent, i));
+    Pack const slope = Pack(from.normal[0]) * loadPack(&bins.column(BinNormalX, i)) +
+                       Pack(from.normal[1]) * loadPack(&bins.column(BinNormalY, i));
+    auto const near = both(x * x + y * y <= farthest * farthest, slope <= Pack(slack - facing_cosine));
+    auto const other = no(loadPack(&bins.column(BinMaterial, i)) == Pack(from.material));
+    return lanesOf(both(both(near, other), laneNumbers() < Pack(end - i)));
+  }
+
   /// The box of midpoints of segments that the rest of the ray can meet.
   KOKKOS_INLINE_FUNCTION void box(double reach, Vector2 &low, Vector2 &high) const
   {
@@ -128,7 +142,17 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *>
   Vector2 low, high;
   ray.box(0.52 * bins.size, low, high); // half the longest segment and a little
   if (bins.holdOthers(low, high, from.material))
-    bins.forEach(low, high, [&](int, BinnedSegment const &target) { ray.offer(mesh, target, target.segment); });
+    bins.forEachRun(low, high,
+                    [&](int begin, int end)
+                    {
+                      for (int i = begin; i < end; i += pack_width)
+                      {
+                        unsigned const lanes = ray.candidates(bins, i, end);
+                        for (int lane = 0; lanes >> lane != 0; ++lane)
+                          if ((lanes >> lane & 1u) != 0)
+                            ray.offer(mesh, bins.item(i + lane), bins.item(i + lane).segment);
+                      }
+                    });
   return ray.hit;
 }
 

@@ -35,17 +35,14 @@ KOKKOS_INLINE_FUNCTION void sortRange(View<int *> const &item, int begin, int en
     }
 }
 
-KOKKOS_INLINE_FUNCTION BinnedSegment binned(SegmentBins const &bins, InterfaceSegment const &s, int number)
+KOKKOS_INLINE_FUNCTION void setColumns(SegmentBins const &bins, int place, InterfaceSegment const &s)
 {
-  return {s.midpoint,
-          s.normal,
-          s.length,
-          s.cell_size,
-          number,
-          s.material,
-          s.cell,
-          bins.index(s.midpoint[0]),
-          bins.index(s.midpoint[1])};
+  bins.column(BinX, place) = s.midpoint[0];
+  bins.column(BinY, place) = s.midpoint[1];
+  bins.column(BinNormalX, place) = s.normal[0];
+  bins.column(BinNormalY, place) = s.normal[1];
+  bins.column(BinExtent, place) = 0.5 * s.length + 1e-6 * s.cell_size;
+  bins.column(BinMaterial, place) = s.material;
 }
 
 struct MidpointBox
@@ -98,25 +95,32 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest, WorkA
   SegmentBins bins;
   bins.size = largest > 0.0 ? largest : 1.0;
   int const buckets = spread(segment, count, bins);
-  bins.offset = work.zeros<int *>("Harmos::constrain::bin_offset", buckets + 1);
+  bins.offset = work.unset<int *>("Harmos::constrain::bin_offset", buckets + 1);
   bins.item = work.unset<BinnedSegment *>("Harmos::constrain::bin_item", count);
-  bins.materials = work.zeros<unsigned long long *>("Harmos::constrain::bin_materials", buckets);
+  // What lies behind the last item is masked out, but compared with.
+  bins.column = work.zeros<double **>("Harmos::constrain::bin_column", num_bin_columns, count + pack_width);
+  bins.materials = work.unset<unsigned long long *>("Harmos::constrain::bin_materials", buckets);
+  View<int *[2]> const bin = work.unset<int *[2]>("Harmos::constrain::bin", count); // column, row
   View<int *> const bucket = work.unset<int *>("Harmos::constrain::bucket", count);
   View<int *> const order = work.unset<int *>("Harmos::constrain::bin_order", count);
   View<int *> const filled = work.zeros<int *>("Harmos::constrain::bin_filled", buckets);
   Kokkos::parallel_for(
       "Harmos::constrain::countBins", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
-        bucket(i) = bins.bucket(bins.index(segment(i).midpoint[0]), bins.index(segment(i).midpoint[1]));
+        bin(i, 0) = bins.index(segment(i).midpoint[0]);
+        bin(i, 1) = bins.index(segment(i).midpoint[1]);
+        bucket(i) = bins.bucket(bin(i, 0), bin(i, 1));
         Kokkos::atomic_add(&filled(bucket(i)), 1);
       });
   Kokkos::parallel_scan(
-      "Harmos::constrain::scanBins", RangePolicy(0, buckets), KOKKOS_LAMBDA(int b, int &sum, bool final) {
-        sum += filled(b);
+      "Harmos::constrain::scanBins", RangePolicy(0, buckets + 1), KOKKOS_LAMBDA(int b, int &sum, bool final) {
+        int const here = b < buckets ? filled(b) : 0;
         if (final)
         {
-          bins.offset(b + 1) = sum;
-          filled(b) = 0;
+          bins.offset(b) = sum;
+          if (b < buckets)
+            filled(b) = 0;
         }
+        sum += here;
       });
   Kokkos::parallel_for(
       "Harmos::constrain::fillBins", RangePolicy(0, count),
@@ -124,12 +128,18 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest, WorkA
   Kokkos::parallel_for(
       "Harmos::constrain::sortBins", RangePolicy(0, buckets), KOKKOS_LAMBDA(int b) {
         int const begin = bins.offset(b), end = bins.offset(b + 1);
+        unsigned long long materials = 0;
         sortRange(order, begin, end);
         for (int i = begin; i < end; ++i)
         {
-          bins.item(i) = binned(bins, segment(order(i)), order(i));
-          bins.materials(b) |= SegmentBins::materialBit(bins.item(i).material);
+          int const number = order(i);
+          InterfaceSegment const &s = segment(number);
+          bins.item(i) = {s.midpoint, s.normal, s.length,       s.cell_size,   number,
+                          s.material, s.cell,   bin(number, 0), bin(number, 1)};
+          setColumns(bins, i, s);
+          materials |= SegmentBins::materialBit(s.material);
         }
+        bins.materials(b) = materials;
       });
   return bins;
 }
@@ -148,6 +158,7 @@ SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen, Work
       },
       total);
   SegmentBins result = bins;
+  result.column = {};
   result.offset = work.unset<int *>("Harmos::constrain::chosen_offset", buckets + 1);
   result.item = work.unset<BinnedSegment *>("Harmos::constrain::chosen_item", total);
   Kokkos::parallel_for(

@@ -3,6 +3,7 @@
 #define HARMOS_SEGMENT_BINS_HPP
 
 #include <Harmos_InterfaceSegments.hpp>
+#include <Harmos_Pack.hpp>
 
 namespace Harmos
 {
@@ -14,6 +15,18 @@ struct BinnedSegment
   double length, cell_size;
   int segment, material, cell;
   int column, row; // of the bin
+};
+
+/// What rays ask of a binned segment first, in columns.
+enum BinColumn : int
+{
+  BinX, // of the midpoint
+  BinY,
+  BinNormalX,
+  BinNormalY,
+  BinExtent,   // half of the length, and what crossSegment adds at its ends
+  BinMaterial, // exact integers
+  num_bin_columns
 };
 
 /// Segments sorted into square bins by their midpoints: compressed rows over a grid that covers them all, or, where
@@ -29,6 +42,7 @@ struct SegmentBins
   int mask = 0;                         // hashed: buckets - 1; buckets is a power of two
   View<int *> offset;                   // bins of the grid by row, or buckets; and one more
   View<BinnedSegment *> item;           // by bin, then by segment
+  View<double **> column;               // num_bin_columns x items, and room for a last pack; none of chosenItems
   View<unsigned long long *> materials; // materialBits of each bin's segments
 
   KOKKOS_INLINE_FUNCTION int index(double x) const { return static_cast<int>(Math::floor(x / size)); }

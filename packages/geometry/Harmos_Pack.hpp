@@ -113,19 +113,24 @@ KOKKOS_FORCEINLINE_FUNCTION Pack select(Pack::Mask const &condition, Pack const 
 {
   return Pack(condition ? a.lanes : b.lanes);
 }
-KOKKOS_FORCEINLINE_FUNCTION bool any(Pack::Mask const &mask)
+/// One bit a lane.
+KOKKOS_FORCEINLINE_FUNCTION unsigned lanesOf(Pack::Mask const &mask)
 {
   // compilers would take the lanes out one by one
 #if defined(__AVX512DQ__)
-  return __builtin_ia32_cvtq2mask512(mask) != 0;
+  return static_cast<unsigned>(__builtin_ia32_cvtq2mask512(mask));
 #elif defined(__AVX__) && !defined(__AVX512F__)
-  return __builtin_ia32_movmskpd256((Pack::Lanes)mask) != 0;
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256((Pack::Lanes)mask));
 #else
-  long long all = 0;
+  unsigned lanes = 0;
   for (int lane = 0; lane < pack_width; ++lane)
-    all |= mask[lane];
-  return all != 0;
+    lanes |= mask[lane] != 0 ? 1u << lane : 0u;
+  return lanes;
 #endif
+}
+KOKKOS_FORCEINLINE_FUNCTION bool any(Pack::Mask const &mask)
+{
+  return lanesOf(mask) != 0;
 }
 KOKKOS_FORCEINLINE_FUNCTION Pack::Mask both(Pack::Mask const &a, Pack::Mask const &b)
 {
@@ -322,6 +327,10 @@ KOKKOS_FORCEINLINE_FUNCTION bool no(bool a)
 {
   return !a;
 }
+KOKKOS_FORCEINLINE_FUNCTION unsigned lanesOf(bool mask)
+{
+  return mask ? 1u : 0u;
+}
 KOKKOS_FORCEINLINE_FUNCTION bool laneOf(bool mask, int)
 {
   return mask;
@@ -338,6 +347,12 @@ KOKKOS_FORCEINLINE_FUNCTION double laneSum(Pack const &p)
   for (int lane = 1; lane < pack_width; ++lane)
     sum += laneOf(p, lane);
   return sum;
+}
+
+/// The numbers of the lanes: 0, 1, ...
+KOKKOS_FORCEINLINE_FUNCTION Pack laneNumbers()
+{
+  return packOf([](int lane) { return static_cast<double>(lane); });
 }
 
 /// Field f of eight-field rows into packs: field[f] lane l = row(l)[f].

@@ -44,9 +44,15 @@ public:
     if (!memory_)
       return View<T>(std::string(label), extents...);
     View<T> const view = unset<T>(label, extents...);
+    constexpr int piece = 256; // compilers make one call of each
     auto *const value = view.data();
+    int const count = static_cast<int>(view.span());
     Kokkos::parallel_for(
-        "Harmos::zeros", RangePolicy(0, view.span()), KOKKOS_LAMBDA(int i) { value[i] = {}; });
+        "Harmos::zeros", RangePolicy(0, (count + piece - 1) / piece), KOKKOS_LAMBDA(int p) {
+          int const end = p * piece + piece < count ? p * piece + piece : count;
+          for (int i = p * piece; i < end; ++i)
+            value[i] = {};
+        });
     return view;
   }
 

@@ -106,6 +106,22 @@ TEST(SegmentBins, noSegments_walksMeetNothing)
   EXPECT_TRUE(walked(bins, {-1.0, -1.0}, {1.0, 1.0}).empty());
 }
 
+// A rank without a segment, in memory that held something else.
+TEST(SegmentBins, noSegmentsInUsedMemory_noneAreChosen)
+{
+  WorkArrays work;
+  work.begin();
+  Kokkos::deep_copy(work.unset<int *>("used", 10000), 77);
+  work.begin();
+  SegmentBins const bins = binSegments(segmentsAt({}), 0.3, work);
+  View<int *> const chosen("chosen", 0);
+  SegmentBins const none = chosenItems(bins, chosen, work);
+  EXPECT_EQ(none.item.extent(0), 0u);
+  EXPECT_TRUE(walked(none, {-1.0, -1.0}, {1.0, 1.0}).empty());
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), bins.offset);
+  EXPECT_EQ(offset(0), 0);
+}
+
 TEST(SegmentBins, chosenItems_areMetInTheSameOrderAndNoOthers)
 {
   std::vector<Vector2> const x = scattered(300);
