@@ -17,7 +17,7 @@ struct PartedCell
   Vector2 normal;         // (cos, sin) of the angle
   Vector2 own[2];         // normals of the lines between each body and the void of its part, which leave the body
   bool lined[2];          // false: a part without void, or without a line yet
-  Vector2 miss[2];        // first moment found, less the given one
+  Vector2 miss[2];        // first moment found, less the given one; zero without own lines
   Pack misfit[CellNeighbours::stored_packs]; // r_j of PartingProblem
   double error = 1e300;                      // see PartingProblem
   bool converged = true;                     // of the searches for the own lines
@@ -38,6 +38,7 @@ struct PartingProblem
   CellNeighbours neighbours;
   Pack first[CellNeighbours::stored_packs], second[CellNeighbours::stored_packs]; // the bodies' fractions
   double weight;                                                                  // over N
+  bool line_alone = false; // the error is the neighbours' misfit alone; no own lines
 
   /// \param of_misfit Weight of the mean squared misfit, of the smaller body's volume.
   KOKKOS_INLINE_FUNCTION PartingProblem(ReconstructionField const &f, CellComponents const &c, double of_misfit)
@@ -83,15 +84,18 @@ struct PartingProblem
   /// \param near Where the searches for the own lines begin; none: everywhere.
   KOKKOS_INLINE_FUNCTION PartedCell at(double angle, double void_part, PartedCell const *near = nullptr) const
   {
-    PartedCell cell;
+    PartedCell cell = {};
     cell.angle = angle;
     cell.void_part = Math::clamp(void_part, 0.0, components.volume[2]);
     cell.normal = {Math::cos(angle), Math::sin(angle)};
     double const beyond = components.volume[2] - cell.void_part;
     Division const parts = divide(components.polygon, cell.normal, components.volume[0] + cell.void_part,
                                   components.volume[1] + beyond, components.weight);
-    place(parts.inside, 0, cell.void_part, near, cell);
-    place(parts.outside, 1, beyond, near, cell);
+    if (!line_alone)
+    {
+      place(parts.inside, 0, cell.void_part, near, cell);
+      place(parts.outside, 1, beyond, near, cell);
+    }
     Pack sum = 0.0;
     NeighbourPack spare;
     for (int p = 0; p < packs(); ++p)
@@ -120,11 +124,12 @@ struct PartingProblem
 
 /// Least squares from a given start by Levenberg and Marquardt's steps, with differences for derivatives; the void of
 /// body 0's part stays between none and all.
+/// \param max_steps Of accepted turns and moves.
 ///
 /// Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431-441.
-KOKKOS_INLINE_FUNCTION PartedCell bestPartedCell(PartingProblem const &problem, PartedCell const &start)
+KOKKOS_INLINE_FUNCTION PartedCell bestPartedCell(PartingProblem const &problem, PartedCell const &start, int max_steps)
 {
-  constexpr int max_steps = 20, max_tries = 8;
+  constexpr int max_tries = 8;
   constexpr double difference = 1e-7, longest_turn = 0.3;
   constexpr double exact = 1e-22;     // a first moment to 1e-11
   constexpr double least_gain = 1e-3; // of the error

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Reconstruct.hpp>
 
-#include <Harmos_RemovalPlan.hpp>
+#include <Harmos_PartedPlan.hpp>
 
 namespace Harmos
 {
@@ -40,15 +40,21 @@ KOKKOS_FUNCTION void givenOrder(CellComponents const &components, View<int *> co
 KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellComponents const &components,
                                         ReconstructionOptions const &options)
 {
-  if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0 || components.count <= 2)
+  SliverBounds const slivers{options.sliver, Math::max(options.sliver, film_volume)};
+  int const last = components.count - 1;
+  bool const of_film = components.material[last] == void_material && components.volume[last] < film_volume &&
+                       components.volume[last] >= options.sliver;
+  if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0 ||
+      (components.count <= 2 && !of_film))
   {
     int order[max_components];
     givenOrder(components, options.order, order);
-    return fixedPlan(field, components, options.method, options.sliver, order);
+    return fixedPlan(field, components, options.method, slivers, order);
   }
-  return components.count > max_exhaustive_components
-             ? greedyPlan(field, components, options.sliver)
-             : partedPlan(field, components, options.sliver, bestPlan(field, components, options.sliver));
+  if (components.count > max_exhaustive_components)
+    return greedyPlan(field, components, slivers);
+  RemovalPlan const plan = partedPlan(field, components, slivers, bestPlan(field, components, slivers));
+  return planForVoidTip(field, components, options.sliver, plan);
 }
 
 /// The plan that a cell was cut by; without components where there is none for those that it has now.
@@ -96,11 +102,10 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
     for (int v = 0; v < part.size; ++v)
       region[v] = components.fromUnit(part[v]);
   };
-  Region polygon = components.polygon;
   if (plan.parted)
   {
     double const open[2] = {plan.void_part, components.volume[2] - plan.void_part};
-    Division const parts = divide(polygon, plan.normal[0], components.volume[0] + open[0],
+    Division const parts = divide(components.polygon, plan.normal[0], components.volume[0] + open[0],
                                   components.volume[1] + open[1], components.weight);
     for (int k = 0; k < 2; ++k)
     {
@@ -114,22 +119,12 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
     }
     return status;
   }
-  ComponentSet rest = components.all();
   for (int i = 0; i < num_pairs; ++i)
   {
     regions.cut_component(first + i) = plan.component[i];
     regions.cut_normal(first + i) = i + 1 < plan.count ? plan.normal[i] : Vector2{0.0, 0.0};
   }
-  for (int i = 0; i + 1 < plan.count; ++i)
-  {
-    int const k = plan.component[i];
-    rest &= ~(1u << k);
-    Division const division =
-        divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight);
-    write(division.inside, k);
-    polygon = division.outside;
-  }
-  write(polygon, plan.component[plan.count - 1]);
+  forEachPart(components, plan, [&](Region const &part, int k, Vector2 const &) { write(part, k); });
   return status;
 }
 

@@ -3,7 +3,8 @@
 #define HARMOS_REMOVAL_PLAN_HPP
 
 #include <Harmos_Clip.hpp>
-#include <Harmos_PartedCell.hpp>
+#include <Harmos_LeastSquaresLine.hpp>
+#include <Harmos_MomentOfFluid.hpp>
 #include <Harmos_Reconstruct.hpp>
 
 namespace Harmos
@@ -30,9 +31,28 @@ struct RemovalPlan
 };
 
 constexpr double sliver_penalty = 0.1; // of its volume times its line's misfit
-constexpr double parting_misfit = 0.1; // of the smaller body's volume times the parting line's misfit
 constexpr double thin_volume = 1e-3;   // of the cell: a line that cuts it off passes near the cell's border
 constexpr double removal_tie = 1e-20;  // orders whose errors differ by less are as good
+
+/// Volumes, of the cell, below which a component is a sliver: its line comes from least squares over the neighbours.
+/// The remap carries a body's own centroid; that of void is what the bodies' errors leave, and needs more volume to
+/// mean something (see planForVoidTip).
+struct SliverBounds
+{
+  double of_body, of_void;
+
+  KOKKOS_INLINE_FUNCTION double of(CellComponents const &components, int k) const
+  {
+    return components.material[k] == void_material ? of_void : of_body;
+  }
+
+  /// Of several components together: that of a body.
+  KOKKOS_INLINE_FUNCTION double ofSet(CellComponents const &components, ComponentSet set) const
+  {
+    int const last = components.count - 1;
+    return set == 1u << last ? of(components, last) : of_body;
+  }
+};
 
 /// Normal of the line that divides a polygon into two sets of components.
 struct CutNormal
@@ -45,8 +65,8 @@ struct CutNormal
 /// Youngs: along the gradient of (fraction of the inside - fraction of the outside). Moment-of-fluid: from the smaller
 /// side's centroid, or by least squares where that side is a sliver.
 KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, CellComponents const &components,
-                                           ReconstructionMethod method, double sliver, Region const &polygon,
-                                           ComponentSet inside, ComponentSet outside)
+                                           ReconstructionMethod method, SliverBounds const &slivers,
+                                           Region const &polygon, ComponentSet inside, ComponentSet outside)
 {
   if (method == ReconstructionMethod::Youngs)
   {
@@ -58,7 +78,7 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
   bool const cut_inside = inside_volume <= outside_volume;
   double const volume = cut_inside ? inside_volume : outside_volume;
   Vector2 const centroid = (1.0 / volume) * components.firstMomentOf(cut_inside ? inside : outside);
-  if (volume < sliver)
+  if (volume < slivers.ofSet(components, cut_inside ? inside : outside))
   {
     Vector2 const middle = polygon[0] + components.momentsOf(polygon).centroid();
     Vector2 fallback = normalised(cut_inside ? middle - centroid : centroid - middle);
@@ -73,14 +93,14 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
 
 /// Whether the region found for a sliver, cut off along n, lies on the other side of a larger component than the
 /// sliver.
-KOKKOS_INLINE_FUNCTION bool beyondAnother(CellComponents const &components, double sliver, Vector2 const &n,
-                                          Vector2 const &found, int k)
+KOKKOS_INLINE_FUNCTION bool beyondAnother(CellComponents const &components, SliverBounds const &slivers,
+                                          Vector2 const &n, Vector2 const &found, int k)
 {
   bool beyond = false;
   for (int j = 0; j < components.count; ++j)
   {
     Vector2 const &middle = components.centroid[j];
-    beyond = beyond || (j != k && components.volume[j] >= sliver &&
+    beyond = beyond || (j != k && components.volume[j] >= slivers.of(components, j) &&
                         dot(n, found - middle) * dot(n, components.centroid[k] - middle) < 0.0);
   }
   return beyond;
@@ -94,27 +114,47 @@ KOKKOS_INLINE_FUNCTION bool beyondAnother(CellComponents const &components, doub
 /// First moments rather than centroids: what a straight line cannot follow moves the same first moment out of one
 /// component and into its neighbour, whatever their sizes.
 /// \param n Normal of the line that cuts the region off.
-KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, double sliver, Region const &region, int k,
-                                          Vector2 const &n)
+KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, SliverBounds const &slivers,
+                                          Region const &region, int k, Vector2 const &n)
 {
   double const volume = components.volume[k];
-  if (region.empty() || (volume < sliver && components.material[k] == void_material))
+  bool const sliver = volume < slivers.of(components, k);
+  if (region.empty() || (sliver && components.material[k] == void_material))
     return 0.0;
   Moments<1> const m = components.momentsOf(region);
   Vector2 const &given = components.centroid[k];
-  if (volume < sliver)
+  if (sliver)
   {
     Vector2 const found = region[0] + m.centroid();
     double const across = dot(n, found - given);
-    return beyondAnother(components, sliver, n, found, k) ? sliver_penalty * volume * across * across : 0.0;
+    return beyondAnother(components, slivers, n, found, k) ? sliver_penalty * volume * across * across : 0.0;
   }
   Vector2 const first = Vector2{m.first(0), m.first(1)} + m.volume() * (region[0] - given);
   return dot(first, first);
 }
 
+/// visit(part, k, normal of the line that cuts it off) for the components of a plan that is not parted, first removed
+/// first.
+template <class Visit>
+KOKKOS_INLINE_FUNCTION void forEachPart(CellComponents const &components, RemovalPlan const &plan, Visit const &visit)
+{
+  Region polygon = components.polygon;
+  ComponentSet rest = components.all();
+  for (int i = 0; i + 1 < plan.count; ++i)
+  {
+    int const k = plan.component[i];
+    rest &= ~(1u << k);
+    Division const division =
+        divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight);
+    visit(division.inside, k, plan.normal[i]);
+    polygon = division.outside;
+  }
+  visit(polygon, plan.component[plan.count - 1], plan.normal[plan.count - 1]);
+}
+
 /// Removal in a given order.
 KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, CellComponents const &components,
-                                             ReconstructionMethod method, double sliver,
+                                             ReconstructionMethod method, SliverBounds const &slivers,
                                              int const order[max_components])
 {
   RemovalPlan plan;
@@ -125,7 +165,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, C
   {
     int const k = order[i];
     rest &= ~(1u << k);
-    CutNormal const cut = cutNormal(field, components, method, sliver, polygon, 1u << k, rest);
+    CutNormal const cut = cutNormal(field, components, method, slivers, polygon, 1u << k, rest);
     plan.set(i, k, cut.normal);
     plan.unfinished += cut.converged ? 0 : 1;
     if (i + 2 < components.count)
@@ -163,7 +203,7 @@ KOKKOS_INLINE_FUNCTION double leastSliverPenalty(ReconstructionField const &fiel
 ///
 /// Ahn & Shashkov, J. Comput. Phys. 226 (2007) 2096-2132, with first moments in place of centroids.
 KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, CellComponents const &components,
-                                            double sliver)
+                                            SliverBounds const &slivers)
 {
   constexpr int max_count = 5;
   Region polygon[max_count];
@@ -193,20 +233,20 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     candidate[depth] = k;
     ComponentSet const others = rest[depth] & ~(1u << k);
     double const volume = components.volume[k];
-    if (depth == 0 && volume < Math::min(sliver, thin_volume) && best.error < 1e300 &&
+    if (depth == 0 && volume < Math::min(slivers.of(components, k), thin_volume) && best.error < 1e300 &&
         volume * leastSliverPenalty(field, components, others) >= best.error)
       continue;
     CutNormal const cut =
-        cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon[depth], 1u << k, others);
+        cutNormal(field, components, ReconstructionMethod::MomentOfFluid, slivers, polygon[depth], 1u << k, others);
     Division const division =
         divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others), components.weight);
     plan.unfinished += cut.converged ? 0 : 1;
-    double total = error[depth] + cut.penalty + momentError(components, sliver, division.inside, k, cut.normal);
+    double total = error[depth] + cut.penalty + momentError(components, slivers, division.inside, k, cut.normal);
     int last = 0;
     while (!components.holds(others, last))
       ++last;
     if (two_left)
-      total += momentError(components, sliver, division.outside, last, cut.normal);
+      total += momentError(components, slivers, division.outside, last, cut.normal);
     plan.set(depth, k, cut.normal);
     if (!(total < best.error - removal_tie))
       continue;
@@ -227,121 +267,9 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
   return best;
 }
 
-/// The parting line that cutting body 0, body 1 or the void off first would draw, the own lines placed anew.
-KOKKOS_INLINE_FUNCTION PartedCell partedAsOrder(PartingProblem const &problem, double sliver, int first)
-{
-  CellComponents const &c = problem.components;
-  auto const normalOf = [&](Region const &polygon, ComponentSet inside, ComponentSet outside)
-  { return cutNormal(problem.field, c, ReconstructionMethod::MomentOfFluid, sliver, polygon, inside, outside).normal; };
-  Vector2 normal;
-  double void_part = first == 0 ? 0.0 : c.volume[2];
-  if (first < 2)
-    normal = (first == 0 ? 1.0 : -1.0) * normalOf(c.polygon, 1u << first, 7u & ~(1u << first));
-  else
-  {
-    Division const open = divide(c.polygon, normalOf(c.polygon, 4u, 3u), c.volume[2], c.volumeOf(3u), c.weight);
-    normal = normalOf(open.outside, 1u, 2u);
-    Division const bodies = divide(open.outside, normal, c.volume[0], c.volume[1], c.weight);
-    Region below;
-    clip(open.inside, Plane2{normal, bodies.line.offset}, below);
-    void_part = below.empty() ? 0.0 : c.volumeOfRegion(below);
-  }
-  return problem.at(Math::atan2(normal[1], normal[0]), void_part);
-}
-
-/// Whether the void lies beside the bodies, as at their ends, rather than between them: its centroid, seen from that of
-/// both bodies, across the line from one to the other.
-KOKKOS_INLINE_FUNCTION bool voidIsBeside(CellComponents const &c)
-{
-  Vector2 const both = (1.0 / c.volumeOf(3u)) * (c.volume[0] * c.centroid[0] + c.volume[1] * c.centroid[1]);
-  Vector2 const apart = c.centroid[1] - c.centroid[0], towards = c.centroid[2] - both;
-  return 2.0 * Math::fabs(cross(apart, towards)) > Math::fabs(dot(apart, towards));
-}
-
-/// Whether both bodies of a parted cell have void, each behind a line at an angle to the parting one whose squared
-/// cosine is accepted.
-template <class Accepts>
-KOKKOS_INLINE_FUNCTION bool bothLines(PartedCell const &cell, Accepts const &accepts)
-{
-  bool both = true;
-  for (int k = 0; k < 2; ++k)
-  {
-    double const along = dot(cell.own[k], cell.normal);
-    both = both && cell.lined[k] && accepts(along * along);
-  }
-  return both;
-}
-
-/// Whether both bodies end in a parted cell: behind lines more than 45 degrees from the parting one.
-KOKKOS_INLINE_FUNCTION bool bothEnd(PartedCell const &cell)
-{
-  return bothLines(cell, [](double squared) { return 2.0 * squared <= 1.0; });
-}
-
-/// Whether the void of a parted cell lies between its bodies: behind lines within 30 degrees of the parting one.
-KOKKOS_INLINE_FUNCTION bool voidIsBetween(PartedCell const &cell)
-{
-  return bothLines(cell, [](double squared) { return 4.0 * squared > 3.0; });
-}
-
-/// Two bodies and void, none a sliver, that the given sequence of cuts does not leave as they are: part the cell where
-/// both bodies end there, and it suits their centroids better.
-/// (A void that lies between the bodies is bounded by faces along that line; each body's own centroid places it, and
-/// four free parameters would follow noise. A body that one cut leaves exact, as a rigid floor, has no end there.)
-///
-/// What a sequence of cuts misses while corners pass each other is little in a cycle, and forgotten with it: the next
-/// one has the centroids of what was cut. The sum does not stay little: the line between the bodies turned upright
-/// within a cell of slip, and the bodies were hooked to each other.
-///
-/// The search begins at the best of the lines that the three orders would draw, and at the next best where it ends
-/// nowhere near an exact cell.
-KOKKOS_INLINE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, CellComponents const &components,
-                                              double sliver, RemovalPlan const &sequence)
-{
-  constexpr double near_exact = 1e-6; // of the sequence's error
-  if (components.count != 3 || components.material[2] != void_material || sequence.error <= removal_tie)
-    return sequence;
-  for (int k = 0; k < 3; ++k)
-    if (components.volume[k] < sliver)
-      return sequence;
-  if (!voidIsBeside(components))
-    return sequence;
-  PartingProblem const problem(field, components, parting_misfit);
-  PartedCell start[3];
-  for (int first = 2; first >= 0; --first)
-  {
-    start[first] = partedAsOrder(problem, sliver, first);
-    if (first == 2 && voidIsBetween(start[first]))
-      return sequence;
-    if (first < 2 && dot(start[first].miss[first], start[first].miss[first]) <= removal_tie)
-      return sequence;
-  }
-  PartedCell cell = {};
-  for (int tries = 0; tries < 2 && !(cell.error <= near_exact * sequence.error); ++tries)
-  {
-    int best = 0;
-    for (int first = 1; first < 3; ++first)
-      best = start[first].error < start[best].error ? first : best;
-    PartedCell const trial = bestPartedCell(problem, start[best]);
-    if (trial.error < cell.error)
-      cell = trial;
-    start[best].error = 1e300;
-  }
-  if (!bothEnd(cell) || !(dot(cell.miss[0], cell.miss[0]) + dot(cell.miss[1], cell.miss[1]) < sequence.error))
-    return sequence;
-  RemovalPlan plan = sequence;
-  plan.parted = true;
-  plan.void_part = cell.void_part;
-  plan.unfinished += cell.converged ? 0 : 1;
-  plan.set(0, 0, cell.normal);
-  plan.set(1, 1, cell.own[0]);
-  plan.set(2, 2, cell.own[1]);
-  return plan;
-}
-
 /// One component after the other, each time the one whose cut has the least centroid error.
 KOKKOS_INLINE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, CellComponents const &components,
-                                              double sliver)
+                                              SliverBounds const &slivers)
 {
   RemovalPlan plan;
   plan.count = components.count;
@@ -362,12 +290,12 @@ KOKKOS_INLINE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, 
         break;
       }
       CutNormal const cut =
-          cutNormal(field, components, ReconstructionMethod::MomentOfFluid, sliver, polygon, 1u << k, others);
+          cutNormal(field, components, ReconstructionMethod::MomentOfFluid, slivers, polygon, 1u << k, others);
       plan.unfinished += cut.converged ? 0 : 1;
       double const volume = components.volume[k];
       Division const division = divide(polygon, cut.normal, volume, components.volumeOf(others), components.weight);
       double const error =
-          (momentError(components, sliver, division.inside, k, cut.normal) + cut.penalty) / (volume * volume);
+          (momentError(components, slivers, division.inside, k, cut.normal) + cut.penalty) / (volume * volume);
       if (error < least - 1e-20)
       {
         least = error;
