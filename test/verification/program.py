@@ -276,9 +276,11 @@ def test_errors_are_measured_at_the_end_where_the_history_has_no_row():
     with_rows = harmos(BALL, {**longer, "output/history/every_cycles": 40})
     without = harmos(BALL, {**longer, "output/history/every_cycles": 0, "output/history/at_end": "false"})
     assert len(without["cycle"]) == 0
-    for key in ("mass_error", "momentum_error", "energy_error"):
+    errors = ("mass_error", "momentum_error", "energy_error")
+    for key in errors:
         assert without.summary[key] == with_rows.summary[key], key
-    assert without.summary["energy_error"] > 0.0
+    # Any one of them may be zero by luck.
+    assert max(without.summary[key] for key in errors) > 0.0
     clean(with_rows, without)
 
 
