@@ -119,8 +119,9 @@ KOKKOS_INLINE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, doubl
 ///
 /// A void that seems to lie between the bodies is bounded by faces along that line; each body's own centroid places it,
 /// and four free parameters would follow noise. A body that one cut leaves exact, as a rigid floor, seems to have no
-/// end there. In both cases only an exact cell is taken, as everywhere if there is one: an error, the neighbours'
-/// misfit included, of at most 1e-6 of that of cutting in sequence.
+/// end there. In both cases only an exact cell is taken: an error, the neighbours' misfit included, of at most 1e-6 of
+/// that of cutting in sequence. Where bodies below film_volume go by least squares, tips leave no cell exact: there the
+/// sequence stays in both cases, and the neighbours' lines are not asked.
 ///
 /// What a sequence of cuts misses while corners pass each other is little in a cycle, and forgotten with it: the next
 /// one has the centroids of what was cut. The sum does not stay little: the line between the bodies turned upright
@@ -144,11 +145,11 @@ KOKKOS_INLINE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, 
   PartedCell start[3];
   bool const wants_exact = slivers.of_body < film_volume;
   bool only_exact = false;
-  for (int first = 2; first >= 0; --first)
+  for (int first = 2; first >= 0 && !only_exact; --first)
   {
     start[first] = partedAsOrder(problem, slivers, first);
-    bool const untouched = first < 2 && dot(start[first].miss[first], start[first].miss[first]) <= removal_tie;
-    only_exact = only_exact || untouched || (first == 2 && voidIsBetween(start[first]));
+    only_exact = first == 2 ? voidIsBetween(start[first])
+                            : dot(start[first].miss[first], start[first].miss[first]) <= removal_tie;
   }
   if (only_exact && !wants_exact)
     return sequence;
@@ -183,6 +184,14 @@ KOKKOS_INLINE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, 
   return plan;
 }
 
+/// Whether a cell's void is small enough for a film between bodies, and no sliver by volume.
+KOKKOS_INLINE_FUNCTION bool mayBeFilm(CellComponents const &components, double sliver)
+{
+  int const last = components.count - 1;
+  double const volume = components.volume[last];
+  return components.material[last] == void_material && volume >= sliver && volume < film_volume;
+}
+
 /// Void below `film_volume` is one of two things. The tip of a void that comes in from a neighbour, as when a body's
 /// corner slides over another body's face: its centroid says where it is, while least squares, which see straight
 /// bodies, lay it between them as a film. Or a film between two bodies that touch: its centroid is what the errors of
@@ -190,7 +199,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, 
 ///
 /// So where a neighbour is open the cell, cut by least squares (the given plan), is cut once more by void's centroid.
 /// That counts where it leaves no first moment off by more than a tenth of the void's volume. Not tried where the
-/// bodies miss more than the void could move: at a curved interface.
+/// bodies miss 30 times that volume already: at a curved interface.
 KOKKOS_INLINE_FUNCTION RemovalPlan planForVoidTip(ReconstructionField const &field, CellComponents const &components,
                                                   double sliver, RemovalPlan const &plan)
 {
@@ -198,8 +207,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan planForVoidTip(ReconstructionField const &fie
   constexpr double least_miss = 0.1, most_miss = 30.0; // of the void's volume
   int const last = components.count - 1;
   double const volume = components.volume[last];
-  if (components.material[last] != void_material || volume < sliver || volume >= film_volume ||
-      plan.error <= removal_tie)
+  if (!mayBeFilm(components, sliver) || plan.error <= removal_tie)
     return plan;
   Rows const &neighbours = field.mesh.cell_neighbour;
   double most_open = 0.0;

@@ -41,11 +41,8 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
                                         ReconstructionOptions const &options)
 {
   SliverBounds const slivers{options.sliver, Math::max(options.sliver, film_volume)};
-  int const last = components.count - 1;
-  bool const of_film = components.material[last] == void_material && components.volume[last] < film_volume &&
-                       components.volume[last] >= options.sliver;
   if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0 ||
-      (components.count <= 2 && !of_film))
+      (components.count <= 2 && !mayBeFilm(components, options.sliver)))
   {
     int order[max_components];
     givenOrder(components, options.order, order);
