@@ -159,6 +159,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   }
   BodyTable table = buildBodyTable(bodies, num_materials, arrays);
   table.outlined = !outline.empty() && options.method == ConstraintMethod::Multipliers;
+  table.surfaces = rigidSurfaces(outline, arrays);
   BodyTable const table_n = withBodies(table, bodies_n, arrays);
   ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
                                            {velocity_n, table_n}, dt, kept, outline, bodies);

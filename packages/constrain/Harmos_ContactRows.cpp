@@ -3,30 +3,8 @@
 #include <Harmos_NormalFit.hpp>
 #include <Harmos_SegmentBearing.hpp>
 
-#include <stdexcept>
-
 namespace Harmos
 {
-
-BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials, WorkArrays const &work)
-{
-  std::vector<int> of_material(num_materials, -1);
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-  {
-    int const material = bodies[b].material;
-    if (material < 0 || material >= num_materials)
-      throw std::runtime_error("rigid body " + std::to_string(b) + ": material " + std::to_string(material) +
-                               " is not in 0.." + std::to_string(num_materials - 1));
-    of_material[material] = static_cast<int>(b);
-  }
-  return {work.copyOf("Harmos::constrain::body_of_material", of_material),
-          work.copyOf("Harmos::constrain::body", bodies)};
-}
-
-BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies, WorkArrays const &work)
-{
-  return {table.of_material, work.copyOf("Harmos::constrain::body", bodies)};
-}
 
 namespace
 {
@@ -230,12 +208,26 @@ struct RowBuilder
     return b.material < 0 || dof_nodes.material(pairs.dof_node(a.pair, 0)) != -1;
   }
 
+  /// From a to b, of the wall or the outline of a rigid body that a meets, or is of; zero where there is none.
+  KOKKOS_INLINE_FUNCTION Vector2 exactNormal(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    if (b.material < 0)
+      return -b.normal;
+    int const body_a = bodyOf(a.material), body_b = bodyOf(b.material);
+    if (body_b >= 0)
+      return -bodies.surfaces.normalAt(body_b, b.midpoint, b.normal, b.cell_size, a.point);
+    if (body_a >= 0)
+      return bodies.surfaces.normalAt(body_a, a.midpoint, a.normal, a.cell_size, a.point);
+    return {0.0, 0.0};
+  }
+
   /// The normal of the row of a segment, or a part of one, that faces another; zero where it carries none.
   KOKKOS_INLINE_FUNCTION Vector2 rowNormal(InterfaceSegment const &a, int facing_it) const
   {
     InterfaceSegment const &b = segment(facing_it);
-    Vector2 const n =
-        b.material < 0 ? -b.normal : contactNormal(segment, facing, options.shortest_segment, a, facing_it);
+    Vector2 n = exactNormal(a, b);
+    if (n[0] == 0.0 && n[1] == 0.0)
+      n = contactNormal(segment, facing, options.shortest_segment, a, facing_it);
     return dot(a.normal, n) < fit_least_cosine ? Vector2{0.0, 0.0} : n;
   }
 

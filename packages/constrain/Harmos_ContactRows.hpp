@@ -2,6 +2,7 @@
 #ifndef HARMOS_CONTACT_ROWS_HPP
 #define HARMOS_CONTACT_ROWS_HPP
 
+#include <Harmos_BodyTable.hpp>
 #include <Harmos_Constrain.hpp>
 #include <Harmos_RayCast.hpp>
 
@@ -29,20 +30,6 @@ struct ContactRows
   TravellingRows travelling; // only with more than one rank
 };
 
-/// Rigid bodies as the kernels see them.
-struct BodyTable
-{
-  View<int *> of_material; // materials: number of the body, -1: deformable
-  View<RigidBody *> body;
-  bool outlined = false; // contact between rigid bodies, and with walls, has its rows from their outlines
-
-  /// Fixed and prescribed bodies, and walls: what no impulse moves.
-  KOKKOS_INLINE_FUNCTION bool driven(int number) const
-  {
-    return number == -2 || (number >= 0 && body(number).motion != RigidMotion::Free);
-  }
-};
-
 /// Velocities and rigid bodies at one time.
 struct Motion
 {
@@ -55,11 +42,6 @@ constexpr int max_cell_rows = 2 * max_cell_segments;
 
 /// Room for packed rows of `width` numbers; `total` = the last of the offsets.
 PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArrays const &work);
-
-BodyTable buildBodyTable(std::vector<RigidBody> const &bodies, int num_materials, WorkArrays const &work = {});
-
-/// The table of the same bodies at another time.
-BodyTable withBodies(BodyTable const &table, std::vector<RigidBody> const &bodies, WorkArrays const &work = {});
 
 /// One row for every owned slave segment that carries one, or two: a facet that comes up tilted is through with one end
 /// while its middle is still apart, and leaves an overlap of length^2 tan(tilt) / 8. So where an end comes by more than

@@ -39,14 +39,13 @@ def corner(x, surface, angle, gap, speed):
     low = min(((p * cos(a) - q * sin(a), p * sin(a) + q * cos(a)) for p in (-half, half) for q in (-half, half)), key=lambda c: c[1])
     return harmos(DECKS / "gaps.yaml", {
         "mesh": "{x: {from: 0.0, to: 0.45, cells: 45}, y: {from: 0.0, to: 0.4, cells: 40}}", **NO_FIELDS, "run/end_time": 4e-5,
-        "numerics/reconstruction/sliver": 1e-6,
         "bodies": f"{{block: {{material: steel, shape: rectangle, center: [0.2, {surface - 0.1!r}], size: [0.3, 0.2]}}, "
                   f"tip: {{material: steel, shape: rectangle, center: [{x - low[0]!r}, {surface + gap * H - low[1]!r}], size: [{2 * half}, {2 * half}], "
                   f"angle: {angle}, velocity: [0.0, -{speed}]}}}}"})
 
 
 def test_a_corner_is_felt_when_it_touches_above_a_cell_a_face_or_a_node():
-    # The surface on faces, low and high in its cells. With slivers below 1e-3 from least squares the first one of a square on its
+    # The surface on faces, low and high in its cells. With slivers below 1e-3 by least squares the first one of a square on its
     # corner lay flat, and pressed through up to 0.22 of a cell of void. Turned less, its corner is a chord within its cell, which lies
     # lower on one side: 72 places gave up to 0.19 of a cell at 2 degrees, 0.11 at 15, 0.03 at 30.
     gap, speed = 0.4, 200.0

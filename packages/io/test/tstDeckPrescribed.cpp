@@ -122,7 +122,7 @@ TEST(DeckPrescribed, parametersOfAnotherField_sayWhereTheyBelong)
 
 TEST(DeckPrescribed, sliver_belongsToMomentOfFluid)
 {
-  EXPECT_EQ(read().reconstruction.sliver, 1e-3);
+  EXPECT_EQ(read().reconstruction.sliver, 1e-6);
   EXPECT_EQ(read({"numerics/reconstruction/method=least squares"}).reconstruction.sliver, 1.0);
   expectRefused("numerics/reconstruction={method: youngs, sliver: 0.1}",
                 "deck.yaml: numerics/reconstruction/sliver: does not belong here, only where method = moment of fluid");
