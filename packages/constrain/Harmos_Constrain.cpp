@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_Borrowed.hpp>
 #include <Harmos_Constrain.hpp>
 #include <Harmos_ConstraintSums.hpp>
 #include <Harmos_ExplicitImpulses.hpp>
@@ -18,24 +19,22 @@ namespace
 void writeHalf(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &predicted,
                BodyTable const &bodies, View<double *[2]> const &half)
 {
+  launchCopy(half, predicted);
   if (bodies.body.extent(0) == 0)
-  {
-    Kokkos::deep_copy(half, predicted);
     return;
-  }
   View<int *> const dof_material = dof_nodes.material, dof_node = dof_nodes.node, of_material = bodies.of_material;
   View<RigidBody *> const rigid = bodies.body;
-  RowPointer<double, 2> const position(mesh.node_position), from(predicted), to(half);
-  Kokkos::parallel_for(
-      "Harmos::constrain::writeHalf", RangePolicy(0, dof_nodes.num_dof_nodes), KOKKOS_LAMBDA(int dof) {
+  RowPointer<double, 2> const position(mesh.node_position), to(half);
+  launchFor(
+      "Harmos::constrain::writeHalf", dof_nodes.num_dof_nodes, KOKKOS_LAMBDA(int dof) {
         int const material = dof_material(dof);
-        int const body = material >= 0 ? of_material(material) : -1;
-        Vector2 v{from(dof, 0), from(dof, 1)};
-        if (body >= 0)
-        {
-          int const node = dof_node(dof);
-          v = rigid(body).velocityAt({position(node, 0), position(node, 1)});
-        }
+        int const number = material >= 0 ? of_material(material) : -1;
+        if (number < 0)
+          return;
+        RigidBody const &body = rigid(number);
+        Vector2 v = body.velocity;
+        if (body.angular_velocity != 0.0)
+          v = body.velocityAt({position(dof_node(dof), 0), position(dof_node(dof), 1)});
         to(dof, 0) = v[0];
         to(dof, 1) = v[1];
       });
@@ -44,8 +43,8 @@ void writeHalf(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double
 void addChange(ContactSystem const &system, View<double *[2]> const &change, View<double *[2]> const &half)
 {
   View<int *> const dof_node = system.dof_node;
-  Kokkos::parallel_for(
-      "Harmos::constrain::addChange", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::addChange", system.num_dofs, KOKKOS_LAMBDA(int i) {
         half(dof_node(i), 0) += change(i, 0);
         half(dof_node(i), 1) += change(i, 1);
       });
@@ -78,8 +77,10 @@ bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions co
 {
   if (dof_nodes.num_dof_nodes == 0)
     return true;
+  View<int *> const material = dof_nodes.material;
   int first = 0;
-  Kokkos::deep_copy(first, Kokkos::subview(dof_nodes.material, 0));
+  launchReduce(
+      "Harmos::constrain::firstMaterial", 1, KOKKOS_LAMBDA(int i, int &sum) { sum += material(i); }, first);
   if (first != -1)
     return false;
   auto const boundary = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), conditions.boundary);
@@ -112,13 +113,14 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   if (!nothingToSeparate(dof_nodes, conditions))
     segments =
         findInterfaceSegments(mesh, pairs, dof_nodes, regions, conditions, options.placement, &work.cells, arrays);
-  double const largest = exchange.max(largestSegment(mesh, segments));
+  Mesh const cells = borrowed(mesh);
+  double const largest = exchange.max(largestSegment(cells, segments));
   if (largest == 0.0)
     return {};
   SegmentBins const bins = binSegments(segments, largest, arrays);
-  View<RayHit *> const hit = castRays(mesh, segments, bins, arrays);
-  ContactRows rows = buildContactRows(mesh, pairs, dof_nodes, regions, segments, hit, bins, conditions, table, bonds,
-                                      options, before, dt, arrays);
+  View<RayHit *> const hit = castRays(cells, segments, bins, arrays);
+  ContactRows rows = buildContactRows(cells, borrowed(pairs), borrowed(dof_nodes), borrowed(regions), segments, hit,
+                                      bins, borrowed(conditions), table, bonds, options, before, dt, arrays);
   OutlineRows between;
   if (table.outlined)
     between = findOutlineRows(mesh, segments, conditions, outline, predicted, options, exchange, largest, dt);
@@ -172,8 +174,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
       writeHalf(mesh, dof_nodes, predicted, table, half);
     return report;
   }
-  ContactSystem const system = buildContactSystem(rows, dof_nodes, conditions, dof_mass, {velocity_n, table_n},
-                                                  {predicted, table}, bodies, dt, arrays);
+  Mesh const cells = borrowed(mesh);
+  NodeMaterialPairs const dofs = borrowed(dof_nodes);
+  ContactSystem const system =
+      buildContactSystem(rows, dofs, borrowed(conditions), borrowed(dof_mass), {borrowed(velocity_n), table_n},
+                         {borrowed(predicted), table}, bodies, dt, arrays);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
   MultiplierSolution const solution = is_explicit
                                           ? explicitImpulses({mesh, pairs, {velocity_n, table_n}, pair_stress}, system,
@@ -184,10 +189,10 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   report.converged = solution.converged;
   report.force = solution.force;
   moveFreeBodies(system, solution.body_change, bodies);
-  writeHalf(mesh, dof_nodes, predicted, system.num_free > 0 ? withBodies(table, bodies, arrays) : table, half);
+  writeHalf(cells, dofs, predicted, system.num_free > 0 ? withBodies(table, bodies, arrays) : table, half);
   addChange(system, solution.change, half);
   exchangeDofVelocities(exchange, 3, pairs, half);
-  sumConstraint(system, rows, solution, mesh, dof_nodes, velocity_n, half,
+  sumConstraint(system, rows, solution, cells, dofs, velocity_n, half,
                 withBodies(table, meanBodies(bodies_n, bodies), arrays), num_materials, exchange, report, arrays);
   sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load, arrays);
   return report;

@@ -52,9 +52,8 @@ struct RowWorker
 View<RowWork *> rowWork(RowWorker const &worker, WorkArrays const &arrays)
 {
   View<RowWork *> const work = arrays.unset<RowWork *>("Harmos::constrain::row_work", worker.s.num_own);
-  Kokkos::parallel_for(
-      "Harmos::constrain::rowWork", RangePolicy(0, worker.s.num_own),
-      KOKKOS_LAMBDA(int i) { work(i) = worker(worker.s.own(i)); });
+  launchFor(
+      "Harmos::constrain::rowWork", worker.s.num_own, KOKKOS_LAMBDA(int i) { work(i) = worker(worker.s.own(i)); });
   return work;
 }
 
@@ -70,8 +69,8 @@ View<RemovedImpulse *> removedImpulses(ContactSystem const &s, RowWorker const &
 {
   View<RemovedImpulse *> const removed = arrays.unset<RemovedImpulse *>("Harmos::constrain::removed", s.num_dofs);
   View<double *[2]> const p = worker.impulse, velocity_n = worker.velocity_n, half = worker.half;
-  Kokkos::parallel_for(
-      "Harmos::constrain::removedImpulses", RangePolicy(0, s.num_dofs), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::removedImpulses", s.num_dofs, KOKKOS_LAMBDA(int i) {
         removed(i) = {{0.0, 0.0}, 0.0};
         int const dof = s.dof_node(i);
         if (s.condition(i).count == 0 || !mesh.node_owned(dof_nodes.node(dof)))

@@ -33,14 +33,14 @@ void shareImpulses(TravellingRows const &rows, Exchange const &exchange, PackedR
     return;
   View<int *> const sent_row = rows.sent, received_row = rows.received;
   PackedRows const out = sent, in = received;
-  Kokkos::parallel_for(
-      "Harmos::constrain::packImpulses", RangePolicy(0, sent_row.extent(0)), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::packImpulses", sent_row.extent(0), KOKKOS_LAMBDA(int i) {
         out(i, 0) = impulse(sent_row(i), 0);
         out(i, 1) = impulse(sent_row(i), 1);
       });
   exchange.exchangePacked(sent, received, row_halo);
-  Kokkos::parallel_for(
-      "Harmos::constrain::unpackImpulses", RangePolicy(0, received_row.extent(0)), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::unpackImpulses", received_row.extent(0), KOKKOS_LAMBDA(int i) {
         impulse(received_row(i), 0) = in(i, 0);
         impulse(received_row(i), 1) = in(i, 1);
       });
@@ -67,8 +67,8 @@ void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> cons
   ContactSystem const s = system_;
   View<double *[2]> const change = change_, result = out;
   View<double *[3]> const body_change = body_change_;
-  Kokkos::parallel_for(
-      "Harmos::constrain::product", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::product", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
           result(row, k) = rowVelocity(s, change, body_change, row, k);
@@ -80,8 +80,8 @@ void ContactOperator::residual(View<double *[2]> const &x, View<double *[2]> con
   product(x, out);
   ContactSystem const s = system_;
   View<double *[2]> const result = out;
-  Kokkos::parallel_for(
-      "Harmos::constrain::addPredicted", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::addPredicted", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
           result(row, k) += s.predicted(row, k);
@@ -95,8 +95,8 @@ double ContactOperator::violation(View<double *[2]> const &p, View<double *[2]> 
   View<double *[2]> const impulse = p, residual = r;
   View<double *> const bound = reach;
   double violation = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::violation", RangePolicy(0, s.num_own),
+  launchReduce(
+      "Harmos::constrain::violation", s.num_own,
       KOKKOS_LAMBDA(int i, double &largest) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
@@ -111,8 +111,8 @@ double ContactOperator::largestPredicted(double dt) const
   ContactSystem const s = system_;
   View<ContactRow *> const row_of = rows_.row;
   double largest = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::largestPredicted", RangePolicy(0, s.num_own),
+  launchReduce(
+      "Harmos::constrain::largestPredicted", s.num_own,
       KOKKOS_LAMBDA(int i, double &l) {
         int const row = s.own(i);
         double const closing = s.tied(row) ? 0.0 : row_of(row).opening() / dt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactRows.hpp>
-#include <Harmos_NormalFit.hpp>
+#include <Harmos_FacingSegments.hpp>
 #include <Harmos_SegmentBearing.hpp>
 
 namespace Harmos
@@ -8,138 +8,6 @@ namespace Harmos
 
 namespace
 {
-
-/// What a fit reads of a facing segment, in columns; lengths in the mesh's unit.
-enum FacingColumn : int
-{
-  FacingX,
-  FacingY,
-  FacingNormalX,
-  FacingNormalY,
-  FacingLength,
-  FacingGap,
-  FacingCellX,
-  FacingCellY,
-  FacingMaterial, // exact integers
-  FacedMaterial,  // of what it faces
-  num_facing_columns
-};
-
-/// The segments whose normals may serve a fit: those that face another one, near enough to parallel.
-struct FacingSegments
-{
-  SegmentBins bins;       // of these alone
-  View<double **> column; // num_facing_columns x segments in the order of the bins, and room for a last pack
-};
-
-FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
-                              SegmentBins const &bins, WorkArrays const &work)
-{
-  constexpr double least_cosine = 0.9; // of the facets that the fit takes
-  int const count = static_cast<int>(bins.item.extent(0));
-  View<int *> const serves = work.unset<int *>("Harmos::constrain::serves", count);
-  View<BinnedSegment *> const item = bins.item;
-  Kokkos::parallel_for(
-      "Harmos::constrain::serves", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
-        RayHit const &h = hit(item(i).segment);
-        serves(i) = h.segment >= 0 && h.cosine >= least_cosine ? 1 : 0;
-      });
-  FacingSegments const facing{chosenItems(bins, serves, work), {}};
-  int const num_facing = static_cast<int>(facing.bins.item.extent(0));
-  int const room = num_facing + pack_width; // what lies behind the last one is masked out, but compared with
-  View<double **> const column = work.zeros<double **>("Harmos::constrain::facing", num_facing_columns, room);
-  View<BinnedSegment *> const chosen = facing.bins.item;
-  Kokkos::parallel_for(
-      "Harmos::constrain::facing", RangePolicy(0, num_facing), KOKKOS_LAMBDA(int i) {
-        BinnedSegment const &c = chosen(i);
-        RayHit const &h = hit(c.segment);
-        Vector2 const cell_centre = segment(c.segment).cell_centre;
-        column(FacingX, i) = c.midpoint[0];
-        column(FacingY, i) = c.midpoint[1];
-        column(FacingNormalX, i) = c.normal[0];
-        column(FacingNormalY, i) = c.normal[1];
-        column(FacingLength, i) = c.length;
-        column(FacingGap, i) = h.gap;
-        column(FacingCellX, i) = cell_centre[0];
-        column(FacingCellY, i) = cell_centre[1];
-        column(FacingMaterial, i) = c.material;
-        column(FacedMaterial, i) = segment(h.segment).material;
-      });
-  return {facing.bins, column};
-}
-
-/// Gathers the samples of a fit at a segment's point, pack by pack.
-struct SampleGatherer
-{
-  FacingSegments const &facing;
-  InterfaceSegment const &at;
-  double material_a, material_b;
-  double shortest; // of side b [cells]
-  FitSamples &samples;
-
-  KOKKOS_FORCEINLINE_FUNCTION Pack column(FacingColumn which, int i) const
-  {
-    return loadPack(&facing.column(which, i));
-  }
-
-  /// Cells from `at` to that of the samples, along direction d of the lattice.
-  KOKKOS_FORCEINLINE_FUNCTION Pack cellsApart(Pack const &x, Pack const &y, int d) const
-  {
-    return Math::fabs(x * Pack(at.lattice[d][0]) + y * Pack(at.lattice[d][1]));
-  }
-
-  KOKKOS_INLINE_FUNCTION void operator()(int begin, int end) const
-  {
-    for (int i = begin; i < end; i += pack_width)
-      take(i, end);
-  }
-
-  KOKKOS_FORCEINLINE_FUNCTION void take(int i, int end) const
-  {
-    constexpr double most_apart = 3.5; // the 7 x 7 cells
-    Pack const a = material_a, b = material_b, inverse_h = 1.0 / at.cell_size;
-    Pack const material = column(FacingMaterial, i), faced = column(FacedMaterial, i);
-    auto const of_a = both(material == a, faced == b);
-    auto const of_b = both(both(material == b, faced == a), Pack(shortest * at.cell_size) <= column(FacingLength, i));
-    Pack const x = inverse_h * (column(FacingX, i) - Pack(at.point[0]));
-    Pack const y = inverse_h * (column(FacingY, i) - Pack(at.point[1]));
-    Pack const distance_squared = x * x + y * y;
-    if (!any(both(either(of_a, of_b), distance_squared < Pack(fit_reach * fit_reach))))
-      return;
-    Pack const length = inverse_h * column(FacingLength, i);
-    Pack const weight = fitWeight(length, distance_squared, inverse_h * column(FacingGap, i));
-    Pack const cell_x = column(FacingCellX, i) - Pack(at.cell_centre[0]);
-    Pack const cell_y = column(FacingCellY, i) - Pack(at.cell_centre[1]);
-    auto const near =
-        both(cellsApart(cell_x, cell_y, 0) <= Pack(most_apart), cellsApart(cell_x, cell_y, 1) <= Pack(most_apart));
-    auto const serves = both(both(either(of_a, of_b), near), weight > Pack(0.0));
-    if (!any(serves))
-      return;
-    Pack const outward = select(of_a, Pack(1.0), Pack(-1.0)); // of a
-    Pack const normal_x = outward * column(FacingNormalX, i), normal_y = outward * column(FacingNormalY, i);
-    int const lanes = Math::min(pack_width, end - i);
-    for (int lane = 0; lane < lanes; ++lane)
-      if (laneOf(serves, lane))
-        samples.push({{laneOf(x, lane), laneOf(y, lane)},
-                      {laneOf(normal_x, lane), laneOf(normal_y, lane)},
-                      laneOf(length, lane),
-                      laneOf(weight, lane),
-                      laneOf(of_a, lane) ? 0 : 1});
-  }
-};
-
-/// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
-/// `target` is what the ray of s (a segment or a part of one) meets, a segment of another material (no wall).
-KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, FacingSegments const &facing,
-                                             double shortest, InterfaceSegment const &s, int target)
-{
-  FitSamples samples;
-  Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
-  facing.bins.forEachRun(s.point - reach, s.point + reach,
-                         SampleGatherer{facing, s, static_cast<double>(s.material),
-                                        static_cast<double>(segment(target).material), shortest, samples});
-  return fitNormal(samples, normalised(s.normal - segment(target).normal));
-}
 
 /// The rows of a segment, before they are written.
 struct PlannedRows
@@ -231,30 +99,48 @@ struct RowBuilder
     return dot(a.normal, n) < fit_least_cosine ? Vector2{0.0, 0.0} : n;
   }
 
-  /// Of the material of a segment, at v^{n-1/2}.
-  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(InterfaceSegment const &s, Vector2 const &point) const
+  /// The motion of the material of a segment, at v^{n-1/2}.
+  struct SideMotion
   {
-    int const body = bodyOf(s.material);
-    if (body >= 0)
-      return before.bodies.body(body).velocityAt(point);
-    Vector2 v{0.0, 0.0};
-    if (body == -2)
-      return v;
-    double weight[4];
-    shapeFunctionsAt(cellQuadrilateral(mesh, s.cell), point, weight);
+    int body;
+    Quadrilateral cell; // of deformable ones, with the velocities of its corners
+    Vector2 velocity[4];
+  };
+
+  KOKKOS_INLINE_FUNCTION SideMotion motionOf(InterfaceSegment const &s) const
+  {
+    SideMotion motion;
+    motion.body = bodyOf(s.material);
+    if (motion.body != -1)
+      return motion;
+    motion.cell = cellQuadrilateral(mesh, s.cell);
     for (int k = 0; k < 4; ++k)
     {
       int const dof = pairs.dof_node(s.pair, k);
-      v += weight[k] * Vector2{before.velocity(dof, 0), before.velocity(dof, 1)};
+      motion.velocity[k] = {before.velocity(dof, 0), before.velocity(dof, 1)};
     }
+    return motion;
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(SideMotion const &motion, Vector2 const &point) const
+  {
+    if (motion.body >= 0)
+      return before.bodies.body(motion.body).velocityAt(point);
+    Vector2 v{0.0, 0.0};
+    if (motion.body == -2)
+      return v;
+    double weight[4];
+    shapeFunctionsAt(motion.cell, point, weight);
+    for (int k = 0; k < 4; ++k)
+      v += weight[k] * motion.velocity[k];
     return v;
   }
 
-  /// Speed at which a point of segment a approaches what lies `gap` away along its normal.
-  KOKKOS_INLINE_FUNCTION double closing(InterfaceSegment const &a, InterfaceSegment const &b, Vector2 const &point,
-                                        double gap) const
+  /// Speed at which a point of side a approaches the point of side b that lies `gap` away along a's normal.
+  KOKKOS_INLINE_FUNCTION double closing(SideMotion const &a, SideMotion const &b, Vector2 const &normal,
+                                        Vector2 const &point, double gap) const
   {
-    return dot(a.normal, velocityAt(a, point) - velocityAt(b, point + gap * a.normal));
+    return dot(normal, velocityAt(a, point) - velocityAt(b, point + gap * normal));
   }
 
   /// Whether in this step an end of a segment would go through what it faces while its middle is held.
@@ -265,14 +151,15 @@ struct RowBuilder
         (b.material >= 0 && options.interaction(a.material, b.material).kind == Interaction::Bonded))
       return false;
     double const slope = dot(a.normal, b.normal);
+    SideMotion const of_a = motionOf(a), of_b = motionOf(b);
     for (double const side : {-0.5, 0.5})
     {
       Vector2 const end = a.midpoint + (side * a.length) * perpendicular(a.normal);
       double const gap = dot(b.midpoint - end, b.normal) / slope; // to the line of b
-      double const comes = dt * closing(a, b, end, gap);
+      double const comes = dt * closing(of_a, of_b, a.normal, end, gap);
       if (comes <= most_approach * a.cell_size)
         continue;
-      double const middle = dt * closing(a, b, a.midpoint, to.gap);
+      double const middle = dt * closing(of_a, of_b, a.normal, a.midpoint, to.gap);
       if ((to.gap - gap) + (comes - middle) > least_lead * a.cell_size)
         return true;
     }
@@ -291,32 +178,37 @@ struct RowBuilder
     return s;
   }
 
-  KOKKOS_INLINE_FUNCTION PlannedRows plan(int i) const
+  KOKKOS_INLINE_FUNCTION void plan(int i, PlannedRows &rows) const
   {
-    PlannedRows rows = {};
+    rows.count = 0;
     if (!carriesRow(i))
-      return rows;
+      return;
     rows.hit[0] = hit(i);
     rows.normal[0] = rowNormal(segment(i), hit(i).segment);
     if (rows.normal[0][0] == 0.0 && rows.normal[0][1] == 0.0)
-      return rows;
+      return;
     rows.count = 1;
-    if (!endGoesThrough(segment(i), hit(i)))
-      return rows;
+    if (endGoesThrough(segment(i), hit(i)))
+      planHalves(i, rows);
+  }
+
+  /// Two rows in the place of one, where both halves carry one.
+  KOKKOS_INLINE_FUNCTION void planHalves(int i, PlannedRows &rows) const
+  {
     PlannedRows two = {};
     for (; two.count < 2; ++two.count)
     {
       InterfaceSegment const s = halfOf(segment(i), two.count);
       RayHit const to = castRay(mesh, segment, num_segments, bins, s, i);
       if (to.segment < 0 || segment(to.segment).material != segment(hit(i).segment).material)
-        return rows;
+        return;
       Vector2 const n = rowNormal(s, to.segment);
       if (n[0] == 0.0 && n[1] == 0.0)
-        return rows;
+        return;
       two.hit[two.count] = to;
       two.normal[two.count] = n;
     }
-    return two;
+    rows = two;
   }
 
   /// Weights: the means of the shape functions over the segment middle +- half, as its traction acts on the nodes;
@@ -448,13 +340,12 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                            before,
                            dt};
   View<PlannedRows *> const planned = work.unset<PlannedRows *>("Harmos::constrain::planned", segments.count);
-  Kokkos::parallel_for(
-      "Harmos::constrain::planRows", RangePolicy(0, segments.count),
-      KOKKOS_LAMBDA(int i) { planned(i) = builder.plan(i); });
+  launchFor(
+      "Harmos::constrain::planRows", segments.count, KOKKOS_LAMBDA(int i) { builder.plan(i, planned(i)); });
   View<int *> const place = work.unset<int *>("Harmos::constrain::row_place", segments.count);
   ContactRows rows;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::countRows", RangePolicy(0, segments.count),
+  launchScan(
+      "Harmos::constrain::countRows", segments.count,
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
         if (final)
           place(i) = sum;
@@ -466,8 +357,8 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
   rows.own = work.unset<int *>("Harmos::constrain::own_row", rows.count);
   View<ContactRow *> const row = rows.row;
   View<int *> const own = rows.own;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::makeRows", RangePolicy(0, segments.count),
+  launchReduce(
+      "Harmos::constrain::makeRows", segments.count,
       KOKKOS_LAMBDA(int i, long long &multipliers) {
         for (int half = 0; half < planned(i).count; ++half)
         {

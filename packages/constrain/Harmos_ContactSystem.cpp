@@ -23,8 +23,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
   int const num_blocks = (num_dof_nodes + block - 1) / block;
   View<int *> const uses = work.zeros<int *>("Harmos::constrain::dof_uses", block * num_blocks);
   View<int *> const place = work.unset<int *>("Harmos::constrain::dof_place", num_dof_nodes); // of used ones alone
-  Kokkos::parallel_for(
-      "Harmos::constrain::countUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
+  launchFor(
+      "Harmos::constrain::countUses", rows.count, KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
         {
           int const dof = dofOf(row(r), k);
@@ -35,8 +35,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
   int const most = Math::min(num_dof_nodes, 8 * rows.count);
   View<int *> const dof_node = work.unset<int *>("Harmos::constrain::contact_dof_node", most);
   View<int *> const offset = work.zeros<int *>("Harmos::constrain::rows_of_offset", most + 1);
-  Kokkos::parallel_scan(
-      "Harmos::constrain::numberDofs", RangePolicy(0, num_blocks),
+  launchScan(
+      "Harmos::constrain::numberDofs", num_blocks,
       KOKKOS_LAMBDA(int b, int &sum, bool final) {
         int used = 0;
         for (int i = b * block; i < (b + 1) * block; ++i)
@@ -57,8 +57,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
       system.num_dofs);
   View<int *> const filled = work.zeros<int *>("Harmos::constrain::rows_of_filled", system.num_dofs);
   int entries = 0;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::scanUses", RangePolicy(0, system.num_dofs + 1),
+  launchScan(
+      "Harmos::constrain::scanUses", system.num_dofs + 1,
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
         sum += offset(i);
         if (final)
@@ -67,8 +67,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
       entries);
   View<int *> const item = work.unset<int *>("Harmos::constrain::rows_of", entries);
   View<SystemRow *> const compact = system.row;
-  Kokkos::parallel_for(
-      "Harmos::constrain::fillUses", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int r) {
+  launchFor(
+      "Harmos::constrain::fillUses", rows.count, KOKKOS_LAMBDA(int r) {
         for (int k = 0; k < 8; ++k)
         {
           int const dof = dofOf(row(r), k);
@@ -77,8 +77,8 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
             item(offset(place(dof)) + Kokkos::atomic_fetch_add(&filled(place(dof)), 1)) = 8 * r + k;
         }
       });
-  Kokkos::parallel_for(
-      "Harmos::constrain::sortUses", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::sortUses", system.num_dofs, KOKKOS_LAMBDA(int i) {
         for (int e = offset(i) + 1; e < offset(i + 1); ++e)
           for (int j = e; j > offset(i) && item(j - 1) > item(j); --j)
           {
@@ -98,8 +98,8 @@ void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &co
   View<double *> const inverse_mass = work.unset<double *>("Harmos::constrain::inverse_mass", system.num_dofs);
   View<NodeCondition *> const condition = work.unset<NodeCondition *>("Harmos::constrain::condition", system.num_dofs);
   View<int *> const dof_node = system.dof_node;
-  Kokkos::parallel_for(
-      "Harmos::constrain::gatherDofs", RangePolicy(0, system.num_dofs), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::gatherDofs", system.num_dofs, KOKKOS_LAMBDA(int i) {
         int const dof = dof_node(i);
         inverse_mass(i) = 1.0 / dof_mass(dof);
         int const index = conditions.node_index(dof_nodes.node(dof));
@@ -122,7 +122,7 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
     if (host(b) >= 0)
       system.free_number(host(b)) = static_cast<int>(b);
   }
-  Kokkos::deep_copy(number, host);
+  launchCopy(number, host);
   system.body_inverse_mass = work.unset<double *[3]>("Harmos::constrain::body_inverse_mass", system.num_free);
   system.body_scale = work.unset<double *[3]>("Harmos::constrain::body_scale", system.num_free);
   auto const inverse = Kokkos::create_mirror_view(system.body_inverse_mass);
@@ -136,8 +136,8 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
     scale(f, 0) = scale(f, 1) = 1.0;
     scale(f, 2) = std::sqrt(body.inertia / body.mass);
   }
-  Kokkos::deep_copy(system.body_inverse_mass, inverse);
-  Kokkos::deep_copy(system.body_scale, scale);
+  launchCopy(system.body_inverse_mass, inverse);
+  launchCopy(system.body_scale, scale);
   return number;
 }
 
@@ -157,8 +157,8 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
 {
   ContactSystem const s = system;
   View<ContactRow *> const row = rows.row;
-  Kokkos::parallel_for(
-      "Harmos::constrain::fillRows", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::fillRows", rows.count, KOKKOS_LAMBDA(int i) {
         ContactRow const &r = row(i);
         SystemRow &out = s.row(i);
         out.tied = r.tied;
@@ -185,6 +185,22 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
       });
 }
 
+/// Sum of |weight u . d| over the directions d of all rows at a dof.
+KOKKOS_INLINE_FUNCTION double reachOf(ContactSystem const &s, int dof, Vector2 const &u)
+{
+  double sum = 0.0;
+  for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
+  {
+    unsigned const item = static_cast<unsigned>(s.rows_of.item(e));
+    SystemRow const &other = s.row(static_cast<int>(item / 8u));
+    double const w = Math::fabs(other.weight[item % 8u]);
+    sum += w * Math::fabs(dot(u, other.normal));
+    if (other.tied || other.friction > 0.0)
+      sum += w * Math::fabs(dot(u, perpendicular(other.normal)));
+  }
+  return sum;
+}
+
 /// Row sums of |G M^-1 P G^T| over the deformable dofs: they bound its spectrum in the metric of the diagonal
 /// (Gershgorin). Where node conditions leave nothing free to move, the sum without them: the impulse stays bounded. A
 /// row between rigid bodies has no deformable dofs: its own diagonal entry serves.
@@ -197,20 +213,11 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
     int const dof = s.dof(row, c);
     if (dof < 0)
       continue;
-    Vector2 const u = s.condition(dof).project(d);
-    double at_dof = 0.0, at_free_dof = 0.0;
-    for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
-    {
-      int const other = s.rows_of.item(e) / 8;
-      double const w = Math::fabs(s.weight(other, s.rows_of.item(e) % 8));
-      for (int l = 0; l < s.directions(other); ++l)
-      {
-        at_dof += w * Math::fabs(dot(u, s.direction(other, l)));
-        at_free_dof += w * Math::fabs(dot(d, s.direction(other, l)));
-      }
-    }
-    sum += Math::fabs(s.weight(row, c)) * s.inverse_mass(dof) * at_dof;
-    unconditioned += Math::fabs(s.weight(row, c)) * s.inverse_mass(dof) * at_free_dof;
+    NodeCondition const &condition = s.condition(dof);
+    double const part = Math::fabs(s.weight(row, c)) * s.inverse_mass(dof), at_free_dof = reachOf(s, dof, d);
+    double const at_dof = condition.count == 0 ? at_free_dof : reachOf(s, dof, condition.project(d));
+    sum += part * at_dof;
+    unconditioned += part * at_free_dof;
   }
   if (unconditioned > 0.0)
     return sum > 1e-12 * unconditioned ? sum : unconditioned;
@@ -241,8 +248,8 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   View<int *> const free_number = numberFreeBodies(bodies, system, work);
   fillRows(rows, before, predicted, free_number, dt, system);
   ContactSystem const s = system;
-  Kokkos::parallel_for(
-      "Harmos::constrain::rowSums", RangePolicy(0, rows.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::rowSums", rows.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
           s.row(row).diagonal[k] = rowSum(s, row, k);
@@ -254,8 +261,8 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
 void velocityChange(ContactSystem const &system, View<double *[2]> const &impulse, View<double *[2]> const &change)
 {
   ContactSystem const s = system;
-  Kokkos::parallel_for(
-      "Harmos::constrain::velocityChange", RangePolicy(0, s.num_dofs), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::velocityChange", s.num_dofs, KOKKOS_LAMBDA(int i) {
         Vector2 f{0.0, 0.0};
         for (int e = s.rows_of.offset(i); e < s.rows_of.offset(i + 1); ++e)
         {
@@ -298,8 +305,8 @@ void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &im
   View<double *[3]> const term = work.unset<double *[3]>("Harmos::constrain::body_term", s.num_own);
   for (int body = 0; body < s.num_free; ++body)
   {
-    Kokkos::parallel_for(
-        "Harmos::constrain::bodyImpulses", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+    launchFor(
+        "Harmos::constrain::bodyImpulses", s.num_own, KOKKOS_LAMBDA(int i) {
           for (int c = 0; c < 3; ++c)
             term(i, c) = bodyImpulse(s, impulse, s.own(i), body, c) / s.body_scale(body, c);
         });
@@ -307,7 +314,7 @@ void bodyVelocityChange(ContactSystem const &system, View<double *[2]> const &im
     for (int c = 0; c < 3; ++c)
       host(body, c) = inverse(body, c) * scale(body, c) * sum[static_cast<std::size_t>(c)];
   }
-  Kokkos::deep_copy(change, host);
+  launchCopy(change, host);
 }
 
 } // namespace Harmos

@@ -156,9 +156,8 @@ std::vector<RowTrace> allTraces(Mesh const &mesh, ContactSystem const &s, Contac
 {
   View<RowTrace *> const trace = work.unset<RowTrace *>("Harmos::constrain::trace", s.num_own);
   View<ContactRow *> const row = rows.row;
-  Kokkos::parallel_for(
-      "Harmos::constrain::rowTraces", RangePolicy(0, s.num_own),
-      KOKKOS_LAMBDA(int i) { trace(i) = rowTrace(mesh, row(s.own(i))); });
+  launchFor(
+      "Harmos::constrain::rowTraces", s.num_own, KOKKOS_LAMBDA(int i) { trace(i) = rowTrace(mesh, row(s.own(i))); });
   std::vector<RowTrace> const own = toHost(trace);
   if (exchange.size() == 1)
     return own;

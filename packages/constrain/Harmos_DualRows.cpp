@@ -9,39 +9,35 @@ namespace Harmos
 namespace
 {
 
-/// visit(other row, block) for each shared dof of an own row and each row before it, and for the row itself.
+/// visit(other row, u) for each shared dof of an own row and each row before it, and for the row itself: u[k] . d is
+/// what the dof adds to the coupling of the row's direction k with the other row's direction d.
 template <class Visitor>
-KOKKOS_INLINE_FUNCTION void forEachBlock(ContactSystem const &s, int row, Visitor const &visit)
+KOKKOS_INLINE_FUNCTION void forEachCoupling(ContactSystem const &s, int row, Visitor const &visit)
 {
+  int const directions = s.directions(row);
   for (int c = 0; c < 8; ++c)
   {
     int const dof = s.dof(row, c);
     if (dof < 0)
       continue;
     double const scale = s.inverse_mass(dof) * s.weight(row, c);
-    int const directions = s.directions(row);
     Vector2 free[2]; // directions of the row, as far as the node conditions let them act
     for (int k = 0; k < directions; ++k)
       free[k] = s.condition(dof).project(s.direction(row, k));
     for (int e = s.rows_of.offset(dof); e < s.rows_of.offset(dof + 1); ++e)
     {
-      int const other = s.rows_of.item(e) / 8;
+      unsigned const item = static_cast<unsigned>(s.rows_of.item(e));
+      int const other = static_cast<int>(item / 8u);
       if (other > row)
         break;
-      double const w = scale * s.weight(other, s.rows_of.item(e) % 8);
-      DualBlock block = {};
-      for (int k = 0; k < directions; ++k)
-      {
-        Vector2 const u = w * free[k];
-        for (int l = 0; l < s.directions(other); ++l)
-          block.value[k][l] = dot(u, s.direction(other, l));
-      }
-      visit(other, block);
+      double const w = scale * s.row(other).weight[item % 8u];
+      Vector2 const u[2] = {w * free[0], directions == 2 ? w * free[1] : Vector2{0.0, 0.0}};
+      visit(other, u);
     }
   }
 }
 
-/// Most visits of forEachBlock, which may come to a row more than once: later rows are counted too.
+/// Most visits of forEachCoupling, which may come to a row more than once: later rows are counted too.
 KOKKOS_INLINE_FUNCTION int mostBlocks(ContactSystem const &s, int row)
 {
   int count = 0;
@@ -95,8 +91,8 @@ View<long long *> keysOf(ContactRows const &rows, WorkArrays const &work)
 {
   View<long long *> const key = work.unset<long long *>("Harmos::constrain::key", rows.count);
   View<ContactRow *> const row = rows.row;
-  Kokkos::parallel_for(
-      "Harmos::constrain::keysOf", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) { key(i) = row(i).key; });
+  launchFor(
+      "Harmos::constrain::keysOf", rows.count, KOKKOS_LAMBDA(int i) { key(i) = row(i).key; });
   return key;
 }
 
@@ -107,8 +103,8 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArray
   View<int *> const count = work.unset<int *>("Harmos::constrain::block_count", s.num_own);
   View<int *> const offset = work.unset<int *>("Harmos::constrain::block_offset", s.num_own);
   int room = 0;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::roomForBlocks", RangePolicy(0, s.num_own),
+  launchScan(
+      "Harmos::constrain::roomForBlocks", s.num_own,
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
         if (final)
           offset(i) = sum;
@@ -117,27 +113,29 @@ DualRows ownRows(ContactSystem const &s, View<long long *> const &key, WorkArray
       room);
   View<DualBlock *> const block = work.unset<DualBlock *>("Harmos::constrain::block", room);
   View<int *> const other = work.unset<int *>("Harmos::constrain::other", room);
-  Kokkos::parallel_for(
-      "Harmos::constrain::fillBlocks", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::fillBlocks", s.num_own, KOKKOS_LAMBDA(int i) {
         row(i) = dualRow(s, s.own(i));
         own_key(i) = key(s.own(i));
-        int const begin = offset(i);
+        int const begin = offset(i), directions = s.directions(s.own(i));
         int end = begin;
-        forEachBlock(s, s.own(i),
-                     [&](int other_row, DualBlock const &b)
-                     {
-                       int at = begin;
-                       while (at < end && other(at) != other_row)
-                         ++at;
-                       if (at == end)
-                       {
-                         other(end) = other_row;
-                         block(end++) = DualBlock{};
-                       }
-                       for (int k = 0; k < 2; ++k)
-                         for (int l = 0; l < 2; ++l)
-                           block(at).value[k][l] += b.value[k][l];
-                     });
+        forEachCoupling(s, s.own(i),
+                        [&](int other_row, Vector2 const(&u)[2])
+                        {
+                          int at = begin;
+                          while (at < end && other(at) != other_row)
+                            ++at;
+                          if (at == end)
+                          {
+                            other(end) = other_row;
+                            block(end++) = DualBlock{};
+                          }
+                          double(&value)[2][2] = block(at).value;
+                          int const its_directions = s.directions(other_row);
+                          for (int k = 0; k < directions; ++k)
+                            for (int l = 0; l < its_directions; ++l)
+                              value[k][l] += dot(u[k], s.direction(other_row, l));
+                        });
         count(i) = end - begin;
       });
   DualRows own{toHost(own_key), toHost(row), toHost(count), {}, {}};

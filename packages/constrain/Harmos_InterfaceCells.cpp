@@ -37,8 +37,8 @@ bool hasContactWall(View<Boundary *> const &boundary)
 bool hasFreeFace(CellSurface const &surface)
 {
   int free = 0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::freeFaces", RangePolicy(0, surface.mesh.num_cells),
+  launchReduce(
+      "Harmos::constrain::freeFaces", surface.mesh.num_cells,
       KOKKOS_LAMBDA(int cell, int &count) {
         for (int k = 0; k < 4; ++k)
           count += surface.freeFace(cell, k) ? 1 : 0;
@@ -47,47 +47,48 @@ bool hasFreeFace(CellSurface const &surface)
   return free > 0;
 }
 
-// What a node carries: its only material, else one of these.
-constexpr int no_material = -1;
-constexpr int several_materials = 1 << 30;
-
-View<int *> nodeMaterials(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, WorkArrays const &work)
+/// Whether the nodes of a void cell, none of which has several, carry different materials.
+KOKKOS_INLINE_FUNCTION bool liesBetween(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, int cell)
 {
-  View<int *> const carried = work.unset<int *>("Harmos::constrain::node_material", mesh.num_nodes);
-  View<int *> const offset = dof_nodes.offset, material = dof_nodes.material;
-  Kokkos::parallel_for(
-      "Harmos::constrain::nodeMaterials", RangePolicy(0, mesh.num_nodes), KOKKOS_LAMBDA(int node) {
-        int const first = offset(node), count = offset(node + 1) - first;
-        carried(node) = count == 1 ? material(first) : count == 0 ? no_material : several_materials;
-      });
-  return carried;
+  int first = -1; // of the materials that were found
+  for (int k = 0; k < 4; ++k)
+  {
+    int const node = surface.mesh.cell_node(cell, k), dof = dof_nodes.offset(node);
+    if (dof == dof_nodes.offset(node + 1))
+      continue;
+    int const material = dof_nodes.material(dof);
+    if (first >= 0 && material != first)
+      return true;
+    first = material;
+  }
+  return false;
 }
 
 /// 1 for the cells that have two materials, or a contact wall, within two cells around them. Those are then at the
-/// nodes of one cell, which is this one or one of its vertex neighbours.
+/// nodes of one cell, which is this one or one of its vertex neighbours: at one node, or on both sides of a void cell.
 View<int *> cellsNearOthers(CellSurface const &surface, NodeMaterialPairs const &dof_nodes, WorkArrays const &work)
 {
-  View<int *[4]> const cell_node = surface.mesh.cell_node;
-  Rows const neighbour = surface.mesh.cell_neighbour;
+  Rows const neighbour = surface.mesh.cell_neighbour, node_cell = surface.mesh.node_cell;
+  View<int *> const offset = dof_nodes.offset, kind = surface.pairs.cell_kind;
   bool const walls = surface.walls;
-  View<int *> const carried = nodeMaterials(surface.mesh, dof_nodes, work);
+  View<int *> const meets = work.zeros<int *>("Harmos::constrain::meets_others", surface.mesh.num_cells);
   View<int *> const near = work.zeros<int *>("Harmos::constrain::near_others", surface.mesh.num_cells);
-  Kokkos::parallel_for(
-      "Harmos::constrain::nearOthers", RangePolicy(0, surface.mesh.num_cells), KOKKOS_LAMBDA(int cell) {
-        int most = no_material;
-        unsigned least = static_cast<unsigned>(no_material); // the largest of all
-        for (int k = 0; k < 4; ++k)
-        {
-          int const m = carried(cell_node(cell, k));
-          most = Math::max(most, m);
-          least = Math::min(least, static_cast<unsigned>(m));
-        }
-        bool meets = most == several_materials || static_cast<unsigned>(most) != least;
-        for (int k = 0; walls && k < 4; ++k)
-          meets = meets || surface.contactWall(cell, k);
-        if (!meets)
+  // Whoever writes writes one.
+  launchFor(
+      "Harmos::constrain::nodesOfSeveral", surface.mesh.num_nodes, KOKKOS_LAMBDA(int node) {
+        if (offset(node + 1) - offset(node) < 2)
           return;
-        near(cell) = 1; // whoever writes writes one
+        for (int e = node_cell.offset(node); e < node_cell.offset(node + 1); ++e)
+          meets(node_cell.item(e) / 4) = 1;
+      });
+  launchFor(
+      "Harmos::constrain::nearOthers", surface.mesh.num_cells, KOKKOS_LAMBDA(int cell) {
+        bool found = meets(cell) == 1 || (kind(cell) == VoidCell && liesBetween(surface, dof_nodes, cell));
+        for (int k = 0; walls && k < 4; ++k)
+          found = found || surface.contactWall(cell, k);
+        if (!found)
+          return;
+        near(cell) = 1;
         for (int e = neighbour.offset(cell); e < neighbour.offset(cell + 1); ++e)
           near(neighbour.item(e)) = 1;
       });
@@ -118,8 +119,8 @@ void listInterfaceCells(CellSurface const &surface, NodeMaterialPairs const &dof
   View<int *> const visited(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::constrain::interface_cell"),
                             num_cells);
   int count = 0;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::listInterfaceCells", RangePolicy(0, num_cells),
+  launchScan(
+      "Harmos::constrain::listInterfaceCells", num_cells,
       KOKKOS_LAMBDA(int cell, int &sum, bool final) {
         bool candidate = near(cell) == 1;
         for (int k = 0; free_faces && k < 4; ++k)

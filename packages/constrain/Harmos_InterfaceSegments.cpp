@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_Borrowed.hpp>
+#include <Harmos_EdgePieces.hpp>
 #include <Harmos_InterfaceCells.hpp>
 #include <Harmos_InterfaceSegments.hpp>
+#include <Harmos_Pack.hpp>
 
 #include <stdexcept>
 
@@ -13,41 +16,30 @@ namespace
 // Shorter pieces, and distances to a line, count as nothing. [cell sizes]
 constexpr double negligible = 1e-8;
 
-constexpr int max_covers = 2 * max_components;
-
-/// What lies beyond an edge: intervals of arc length, each of one material.
-struct EdgeCovers
-{
-  int count = 0;
-  double begin[max_covers];
-  double end[max_covers];
-  int material[max_covers];
-};
-
-/// An edge of a counter-clockwise region.
-struct Edge
-{
-  Vector2 start, direction, normal; // direction and normal are unit vectors
-  double length;
-};
-
-KOKKOS_INLINE_FUNCTION Edge edgeBetween(Vector2 const &a, Vector2 const &b)
-{
-  Edge edge{a, b - a, {0.0, 0.0}, 0.0};
-  edge.length = norm(edge.direction);
-  if (edge.length > 0.0)
-    edge.direction *= 1.0 / edge.length;
-  edge.normal = -perpendicular(edge.direction);
-  return edge;
-}
-
 /// What the segments of one cell share.
 struct CellFrame
 {
+  static constexpr int room = pack_width > 4 ? pack_width : 4;
+
   Quadrilateral corner;
   Edge face[4];
-  double size;      // sqrt of the area
-  double tolerance; // shorter pieces, and distances to a line, count as nothing
+  double x[room], y[room], normal_x[room], normal_y[room]; // starts and normals of the faces
+  double size;                                             // sqrt of the area
+  double tolerance;                                        // shorter pieces, and distances to a line, count as nothing
+
+  /// The faces on whose lines a point lies: a bit each.
+  KOKKOS_FORCEINLINE_FUNCTION unsigned facesAt(Vector2 const &point) const
+  {
+    unsigned faces = 0;
+    HARMOS_UNROLL
+    for (int k = 0; k < 4; k += pack_width)
+    {
+      Pack const dx = Pack(point[0]) - loadPack(x + k), dy = Pack(point[1]) - loadPack(y + k);
+      Pack const apart = Math::fabs(dx * loadPack(normal_x + k) + dy * loadPack(normal_y + k));
+      faces |= lanesOf(apart <= Pack(tolerance)) << k;
+    }
+    return faces & 15u;
+  }
 };
 
 KOKKOS_INLINE_FUNCTION CellFrame cellFrame(Mesh const &mesh, int cell)
@@ -56,108 +48,27 @@ KOKKOS_INLINE_FUNCTION CellFrame cellFrame(Mesh const &mesh, int cell)
   frame.corner = cellQuadrilateral(mesh, cell);
   for (int k = 0; k < 4; ++k)
     frame.face[k] = edgeBetween(frame.corner[k], frame.corner[(k + 1) % 4]);
+  for (int k = 0; k < CellFrame::room; ++k)
+  {
+    Edge const &face = frame.face[k & 3];
+    frame.x[k] = face.start[0];
+    frame.y[k] = face.start[1];
+    frame.normal_x[k] = face.normal[0];
+    frame.normal_y[k] = face.normal[1];
+  }
   frame.size = Math::sqrt(mesh.cell_area(cell));
   frame.tolerance = negligible * frame.size;
   return frame;
 }
 
-/// Add the intervals of an edge that a region's edges touch from the other side.
-KOKKOS_INLINE_FUNCTION void addCover(Edge const &edge, Region const &region, int material, double tolerance,
-                                     EdgeCovers &covers)
-{
-  if (region.empty())
-    return;
-  Vector2 a = region[region.size - 1] - edge.start;
-  bool a_near = Math::fabs(dot(a, edge.normal)) <= tolerance;
-  for (int i = 0; i < region.size && covers.count < max_covers; ++i)
-  {
-    Vector2 const b = region[i] - edge.start;
-    bool const b_near = Math::fabs(dot(b, edge.normal)) <= tolerance;
-    if (a_near && b_near)
-    {
-      double const end = Math::min(dot(a, edge.direction), edge.length);
-      double const begin = Math::max(dot(b, edge.direction), 0.0);
-      if (end - begin > tolerance)
-      {
-        covers.begin[covers.count] = begin;
-        covers.end[covers.count] = end;
-        covers.material[covers.count++] = material;
-      }
-    }
-    a = b;
-    a_near = b_near;
-  }
-}
-
 /// The cell face that the edge a -> b lies on, with the face's own direction; -1: none.
-KOKKOS_INLINE_FUNCTION int faceOfEdge(CellFrame const &frame, Vector2 const &a, Vector2 const &b)
+/// \param faces On whose lines both of its ends lie.
+KOKKOS_INLINE_FUNCTION int faceOfEdge(CellFrame const &frame, unsigned faces, Vector2 const &a, Vector2 const &b)
 {
-  for (int k = 0; k < 4; ++k)
-  {
-    Edge const &face = frame.face[k];
-    if (dot(face.direction, b - a) > 0.0 && Math::fabs(dot(a - face.start, face.normal)) <= frame.tolerance &&
-        Math::fabs(dot(b - face.start, face.normal)) <= frame.tolerance)
+  for (int k = 0; faces >> k != 0u; ++k)
+    if ((faces >> k & 1u) != 0u && dot(frame.face[k].direction, b - a) > 0.0)
       return k;
-  }
   return -1;
-}
-
-/// Maximal pieces of an edge beyond which lies one other material, or void.
-struct EdgePieces
-{
-  int count = 0;
-  double total = 0.0;
-  double begin[2 * max_covers + 1];
-  double end[2 * max_covers + 1];
-};
-
-KOKKOS_INLINE_FUNCTION void exposedPieces(double length, EdgeCovers const &covers, int material, double tolerance,
-                                          EdgePieces &pieces)
-{
-  double at[2 * max_covers + 2];
-  int count = 0;
-  at[count++] = 0.0;
-  at[count++] = length;
-  for (int i = 0; i < covers.count; ++i)
-    for (int k = 0; k < 2; ++k)
-    {
-      double const s = k == 0 ? covers.begin[i] : covers.end[i];
-      int j = count++;
-      for (; j > 0 && at[j - 1] > s; --j)
-        at[j] = at[j - 1];
-      at[j] = s;
-    }
-  int last = -2; // what lies beyond the last piece; -1 is void
-  for (int i = 0; i + 1 < count; ++i)
-  {
-    if (at[i + 1] - at[i] <= tolerance)
-      continue;
-    double const middle = 0.5 * (at[i] + at[i + 1]);
-    int beyond = -1;
-    for (int c = covers.count - 1; c >= 0; --c)
-      if (covers.begin[c] < middle && middle < covers.end[c])
-        beyond = covers.material[c];
-    if (beyond != material)
-    {
-      pieces.total += at[i + 1] - at[i];
-      if (beyond == last)
-        pieces.end[pieces.count - 1] = at[i + 1];
-      else
-      {
-        pieces.begin[pieces.count] = at[i];
-        pieces.end[pieces.count++] = at[i + 1];
-      }
-    }
-    last = beyond;
-  }
-}
-
-/// Beyond the edge lies one thing: a wall, void or a pure cell.
-KOKKOS_INLINE_FUNCTION void wholeEdge(double length, EdgePieces &pieces)
-{
-  pieces.count = 1;
-  pieces.total = pieces.end[0] = length;
-  pieces.begin[0] = 0.0;
 }
 
 /// Points of a piece: how many, and how far from its ends where there are two. Free faces of a body-fitted mesh have
@@ -208,9 +119,26 @@ struct SegmentFinder
     int const like = pairs.find(cell, material), first = regions.cell_region(cell);
     if (like < 0 || first < 0)
       return false;
-    EdgeCovers covers;
-    addCover(edge, regions.polygon(first + like - pairs.offset(cell)), material, tolerance, covers);
-    return covers.count == 1 && covers.begin[0] <= tolerance && covers.end[0] >= edge.length - tolerance;
+    Region const &region = regions.polygon(first + like - pairs.offset(cell));
+    if (region.empty())
+      return false;
+    Vector2 a = region[region.size - 1] - edge.start;
+    bool a_near = Math::fabs(dot(a, edge.normal)) <= tolerance;
+    for (int i = 0; i < region.size; ++i)
+    {
+      Vector2 const b = region[i] - edge.start;
+      bool const b_near = Math::fabs(dot(b, edge.normal)) <= tolerance;
+      if (a_near && b_near)
+      {
+        double const end = Math::min(dot(a, edge.direction), edge.length);
+        double const begin = Math::max(dot(b, edge.direction), 0.0);
+        if (end - begin > tolerance) // regions are convex: it is the only one, if it is whole
+          return begin <= tolerance && end >= edge.length - tolerance;
+      }
+      a = b;
+      a_near = b_near;
+    }
+    return false;
   }
 
   /// Whether the region of a material in a cell has the edge from a to b, corner for corner.
@@ -276,25 +204,34 @@ struct SegmentFinder
     }
     PiecePoints const points = piecePoints(placement, free);
     double const exposed = face < 0 ? 1.0 : pieces.total / frame.face[face].length;
-    int const count = pieces.count * points.count;
-    for (int i = 0; i < count && first + i < static_cast<int>(segment.extent(0)); ++i)
+    int const room = static_cast<int>(segment.extent(0));
+    int count = 0;
+    for (int piece = 0; piece < pieces.count; ++piece)
     {
-      InterfaceSegment &s = segment(first + i);
-      s = blank;
-      int const half = i % points.count;
-      double const begin = pieces.begin[i / points.count], length = pieces.end[i / points.count] - begin;
-      s.length = length / points.count;
-      s.midpoint = edge.start + (begin + (half + 0.5) * s.length) * edge.direction;
-      s.point = middleOf(s.midpoint, edge.direction, s.length);
-      if (points.count == 2)
-        s.point = edge.start + (begin + (half == 0 ? points.inset : 1.0 - points.inset) * length) * edge.direction;
-      s.normal = edge.normal;
-      s.parts = points.count;
-      s.exposed = exposed;
-      s.number = number + i;
-      s.pair = pair;
-      s.material = material;
-      s.face = face;
+      double const begin = pieces.begin[piece], length = pieces.end[piece] - begin;
+      for (int half = 0; half < points.count; ++half, ++count)
+      {
+        if (first + count >= room)
+          continue;
+        InterfaceSegment &s = segment(first + count);
+        s.cell_centre = blank.cell_centre;
+        s.lattice[0] = blank.lattice[0];
+        s.lattice[1] = blank.lattice[1];
+        s.cell_size = blank.cell_size;
+        s.cell = cell;
+        s.length = points.count == 1 ? length : 0.5 * length;
+        s.midpoint = edge.start + (begin + (half + 0.5) * s.length) * edge.direction;
+        s.point = middleOf(s.midpoint, edge.direction, s.length);
+        if (points.count == 2)
+          s.point = edge.start + (begin + (half == 0 ? points.inset : 1.0 - points.inset) * length) * edge.direction;
+        s.normal = edge.normal;
+        s.parts = points.count;
+        s.exposed = exposed;
+        s.number = number + count;
+        s.pair = pair;
+        s.material = material;
+        s.face = face;
+      }
     }
     return count;
   }
@@ -339,10 +276,15 @@ struct SegmentFinder
     for (int pair = begin; pair < pairs.offset(cell + 1); ++pair)
     {
       Region const &region = regions.polygon(first_region + pair - begin);
+      unsigned const faces_at_first = region.empty() ? 0u : frame.facesAt(region[0]);
+      unsigned faces_at_next = faces_at_first;
       for (int i = 0; i < region.size; ++i)
       {
-        Vector2 const a = region[i], b = region[region.next(i)];
-        int const face = faceOfEdge(frame, a, b);
+        int const next = region.next(i);
+        Vector2 const a = region[i], b = region[next];
+        unsigned const faces_at_a = faces_at_next;
+        faces_at_next = next == 0 ? faces_at_first : frame.facesAt(b);
+        int const face = faceOfEdge(frame, faces_at_a & faces_at_next, a, b);
         if (face >= 0 && isHidden(cell, face, pairs.material(pair)))
           continue;
         Edge const edge = edgeBetween(a, b);
@@ -390,8 +332,8 @@ struct SegmentFinder
 int writeSegments(SegmentFinder const &finder, View<int *> const &visited, int num_visited, View<int *> const &first)
 {
   int count = 0;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::writeSegments", RangePolicy(0, num_visited),
+  launchScan(
+      "Harmos::constrain::writeSegments", num_visited,
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
         if (final)
           first(i) = sum;
@@ -409,12 +351,14 @@ InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs cons
                                         WorkArrays const &work)
 {
   constexpr int usual_segments = 4; // of a cell; where there are more the room is enlarged
-  SegmentFinder finder{mesh, pairs, regions, cellSurface(mesh, pairs, conditions), {}, placement};
   InterfaceCells own;
   InterfaceCells &cells = kept != nullptr ? *kept : own;
-  listInterfaceCells(finder.surface, dof_nodes, cells, work);
+  CellSurface const surface = cellSurface(mesh, pairs, conditions);
+  listInterfaceCells(surface, dof_nodes, cells, work);
   if (cells.count == 0)
     return {};
+  CellSurface const its_surface{borrowed(mesh), borrowed(pairs), borrowed(conditions.boundary), surface.walls};
+  SegmentFinder finder{its_surface.mesh, its_surface.pairs, borrowed(regions), its_surface, {}, placement};
   int const num_visited = cells.count;
   View<int *> const visited = cells.cell;
   View<int *> const first = work.unset<int *>("Harmos::constrain::first_segment", num_visited);
@@ -428,8 +372,8 @@ InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs cons
   }
   int const total = result.count;
   int most = 0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::mostSegments", RangePolicy(0, num_visited),
+  launchReduce(
+      "Harmos::constrain::mostSegments", num_visited,
       KOKKOS_LAMBDA(int i, int &largest) {
         largest = Math::max(largest, (i + 1 < num_visited ? first(i + 1) : total) - first(i));
       },

@@ -50,8 +50,8 @@ double operatorNorm(ContactSystem const &s, Conjugate const &c, Exchange const &
 {
   if (s.num_free == 0)
     return 1.0;
-  Kokkos::parallel_for(
-      "Harmos::constrain::bodyTrace", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::bodyTrace", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         double trace = 0.0;
         for (int k = 0; k < s.directions(row); ++k)
@@ -76,8 +76,8 @@ struct GradientNorms
 
 GradientNorms gradientNorms(ContactSystem const &s, Conjugate const &c, Exchange const &exchange)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::gradientTerms", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::gradientTerms", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         double free = 0.0, chopped = 0.0;
         for (int k = 0; k < s.directions(row); ++k)
@@ -99,8 +99,8 @@ GradientNorms gradientNorms(ContactSystem const &s, Conjugate const &c, Exchange
 /// direction = scaled gradient of the free rows + beta direction; or of the bound rows alone.
 void setDirection(ContactSystem const &s, Conjugate const &c, bool of_free, double beta)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::setDirection", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::setDirection", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
         {
@@ -121,8 +121,8 @@ struct Slope
 
 Slope slopeAlong(ContactSystem const &s, Conjugate const &c, Exchange const &exchange)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::slopeTerms", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::slopeTerms", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         double descent = 0.0, curvature = 0.0;
         for (int k = 0; k < s.directions(row); ++k)
@@ -140,8 +140,8 @@ Slope slopeAlong(ContactSystem const &s, Conjugate const &c, Exchange const &exc
 /// Conjugation: (free gradient) . A d, both scaled.
 double conjugation(ContactSystem const &s, Conjugate const &c, Exchange const &exchange)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::conjugationTerms", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::conjugationTerms", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         double sum = 0.0;
         for (int k = 0; k < s.directions(row); ++k)
@@ -158,8 +158,8 @@ double longestStep(ContactSystem const &s, Conjugate const &c, Exchange const &e
 {
   constexpr double endless = 1.0e290;
   double longest = endless;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::longestStep", RangePolicy(0, s.num_own),
+  launchReduce(
+      "Harmos::constrain::longestStep", s.num_own,
       KOKKOS_LAMBDA(int i, double &least) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
@@ -177,8 +177,8 @@ double longestStep(ContactSystem const &s, Conjugate const &c, Exchange const &e
 /// p -= alpha direction, r -= alpha A direction.
 void advance(ContactSystem const &s, Conjugate const &c, double alpha)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::advance", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::advance", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
         {
@@ -191,8 +191,8 @@ void advance(ContactSystem const &s, Conjugate const &c, double alpha)
 /// p = bounds(p - step r / D), on the free rows alone or on all.
 void projectedStep(ContactSystem const &s, Conjugate const &c, double step, bool free_alone)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::projectedStep", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::projectedStep", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
           if (!free_alone || isFree(s, c, row, k))
@@ -204,8 +204,8 @@ void projectedStep(ContactSystem const &s, Conjugate const &c, double step, bool
 /// that their gradient presses on stay at it.
 void setReach(ContactSystem const &s, Conjugate const &c)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::setReach", RangePolicy(0, s.num_own), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::setReach", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         if (s.tied(row) || s.directions(row) == 1)
           return;
@@ -219,8 +219,8 @@ void setReach(ContactSystem const &s, Conjugate const &c)
 bool hasFriction(ContactSystem const &s, Exchange const &exchange)
 {
   double largest = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::largestFriction", RangePolicy(0, s.num_own),
+  launchReduce(
+      "Harmos::constrain::largestFriction", s.num_own,
       KOKKOS_LAMBDA(int i, double &l) { l = Math::max(l, s.friction(s.own(i))); }, Kokkos::Max<double>(largest));
   return exchange.max(s.num_own > 0 ? largest : 0.0) > 0.0;
 }
@@ -228,8 +228,8 @@ bool hasFriction(ContactSystem const &s, Exchange const &exchange)
 /// The residual of no impulses: what was predicted.
 void predictedResidual(ContactSystem const &s, View<double *[2]> const &r)
 {
-  Kokkos::parallel_for(
-      "Harmos::constrain::predictedResidual", RangePolicy(0, s.num_rows), KOKKOS_LAMBDA(int row) {
+  launchFor(
+      "Harmos::constrain::predictedResidual", s.num_rows, KOKKOS_LAMBDA(int row) {
         r(row, 0) = s.predicted(row, 0);
         r(row, 1) = s.predicted(row, 1);
       });
@@ -329,8 +329,8 @@ private:
                                           : x[across] / problem.root[across];
       }
     }
-    Kokkos::deep_copy(c_.p, p);
-    Kokkos::deep_copy(c_.reach, reach);
+    launchCopy(c_.p, p);
+    launchCopy(c_.reach, reach);
   }
 
   double violation() const { return contact_.violation(c_.p, c_.r, c_.reach); }

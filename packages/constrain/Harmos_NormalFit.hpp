@@ -2,15 +2,15 @@
 #ifndef HARMOS_NORMAL_FIT_HPP
 #define HARMOS_NORMAL_FIT_HPP
 
-#include <Harmos_Pack.hpp>
+#include <Harmos_LaneMoves.hpp>
 #include <Harmos_Vector.hpp>
 
 namespace Harmos
 {
 
-/// Most segments of each side that one fit takes (7 x 7 cells hold about 15 around a simple interface); a whole number
+/// Most segments that one fit takes (7 x 7 cells hold about 30 of both sides around a simple interface); a whole number
 /// of packs.
-constexpr int max_fit_samples = 96;
+constexpr int max_fit_samples = 192;
 
 /// One segment near the point where the contact normal is wanted; lengths in cells.
 struct FitSample
@@ -22,44 +22,57 @@ struct FitSample
   int side;      // 0: of a, 1: of b
 };
 
-/// The samples of one side, by component. Behind the last one the pack is filled with samples of no weight.
-struct FitSide
-{
-  int count = 0;
-  double x[max_fit_samples], y[max_fit_samples], normal_x[max_fit_samples], normal_y[max_fit_samples];
-  double length[max_fit_samples], weight[max_fit_samples], omega[max_fit_samples]; // omega: robust factor of the weight
-
-  KOKKOS_INLINE_FUNCTION void set(int j, Vector2 const &offset, Vector2 const &normal, double its_length,
-                                  double its_weight)
-  {
-    x[j] = offset[0];
-    y[j] = offset[1];
-    normal_x[j] = normal[0];
-    normal_y[j] = normal[1];
-    length[j] = its_length;
-    weight[j] = its_weight;
-    omega[j] = 1.0;
-  }
-
-  KOKKOS_INLINE_FUNCTION void fillPack()
-  {
-    for (int j = count; j < numPacks(count) * pack_width; ++j)
-      set(j, {0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0);
-  }
-};
-
+/// The samples of both sides, by component, in the order in which they came.
 struct FitSamples
 {
-  FitSide side[2];
+  static constexpr int room = max_fit_samples + pack_width; // pushPack writes whole packs
+  int count = 0;
+  double x[room], y[room], normal_x[room], normal_y[room], length[room], weight[room];
+  double of_b[room]; // 1 on side b, 0 on side a
 
   /// False, and no change, when there is no room.
   KOKKOS_INLINE_FUNCTION bool push(FitSample const &s)
   {
-    FitSide &of = side[s.side];
-    if (of.count == max_fit_samples)
+    if (count == max_fit_samples)
       return false;
-    of.set(of.count++, s.offset, s.normal, s.length, s.weight);
+    set(count++, s);
     return true;
+  }
+
+  /// The chosen lanes of a pack of samples, as far as there is room.
+  KOKKOS_FORCEINLINE_FUNCTION void pushPack(unsigned lanes, Pack const &its_x, Pack const &its_y,
+                                            Pack const &its_normal_x, Pack const &its_normal_y, Pack const &its_length,
+                                            Pack const &its_weight, Pack const &its_side)
+  {
+    LaneCompressor const chosen(lanes);
+    int const at = count;
+    storePack(x + at, chosen(its_x));
+    storePack(y + at, chosen(its_y));
+    storePack(normal_x + at, chosen(its_normal_x));
+    storePack(normal_y + at, chosen(its_normal_y));
+    storePack(length + at, chosen(its_length));
+    storePack(weight + at, chosen(its_weight));
+    storePack(of_b + at, chosen(its_side));
+    count = Math::min(max_fit_samples, at + chosen.count);
+  }
+
+  /// Behind the last sample the pack is filled with samples of no weight.
+  KOKKOS_INLINE_FUNCTION void fillPack()
+  {
+    for (int j = count; j < numPacks(count) * pack_width; ++j)
+      set(j, {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0, 0});
+  }
+
+private:
+  KOKKOS_INLINE_FUNCTION void set(int j, FitSample const &s)
+  {
+    x[j] = s.offset[0];
+    y[j] = s.offset[1];
+    normal_x[j] = s.normal[0];
+    normal_y[j] = s.normal[1];
+    length[j] = s.length;
+    weight[j] = s.weight;
+    of_b[j] = s.side;
   }
 };
 
@@ -69,7 +82,7 @@ constexpr double fit_reach = 4.0; // distance from which on segments have no wei
 KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_squared, Pack const &gap)
 {
   Pack const kernel = Math::max(Pack(0.0), Pack(1.0) - distance_squared / Pack(fit_reach * fit_reach));
-  Pack const g = gap / Pack(0.3);
+  Pack const g = gap * Pack(1.0 / 0.3);
   return length * kernel * kernel / (Pack(1.0) + g * g);
 }
 
@@ -81,120 +94,117 @@ struct ParabolaFit
   double gamma = 0.0;
 };
 
-/// Solve the symmetric positive (semi)definite 4 x 4 system A x = b by LDL^T; directions without a pivot get x = 0.
-KOKKOS_INLINE_FUNCTION void solve4(double A[4][4], double b[4])
-{
-  double inverse[4]; // of the pivots
-  for (int k = 0; k < 4; ++k)
-  {
-    inverse[k] = A[k][k] > 1e-300 ? 1.0 / A[k][k] : 0.0;
-    for (int i = k + 1; i < 4; ++i)
-    {
-      double const l = A[i][k] * inverse[k];
-      for (int j = k + 1; j < 4; ++j)
-        A[i][j] -= l * A[k][j];
-      b[i] -= l * b[k];
-    }
-  }
-  for (int k = 3; k >= 0; --k)
-  {
-    for (int j = k + 1; j < 4; ++j)
-      b[k] -= A[k][j] * b[j];
-    b[k] *= inverse[k];
-  }
-}
-
 constexpr double fit_least_cosine = 0.7; // segments (and rows) that are tilted more against the normal are left out
 
-/// A pack of samples in the frame of one pass: positions, heights, projected lengths squared over 12, and slopes.
-struct FitPoints
+/// The samples in the frame of one pass: positions, heights, projected lengths squared over 12, and slopes.
+struct FitFrame
 {
-  Pack t, y, spread, slope, along;
-
-  KOKKOS_FORCEINLINE_FUNCTION FitPoints(FitSide const &s, int j, Vector2 const &n)
-  {
-    Pack const nx = n[0], ny = n[1], x = loadPack(s.x + j), z = loadPack(s.y + j);
-    Pack const a = loadPack(s.normal_x + j), b = loadPack(s.normal_y + j);
-    along = a * nx + b * ny;
-    t = x * ny - z * nx;
-    y = x * nx + z * ny;
-    Pack const projected = loadPack(s.length + j) * along;
-    spread = projected * projected * Pack(1.0 / 12.0);
-    // The line's tangent is -perpendicular(normal) seen along t; those that are left out must not divide by zero.
-    slope = (b * nx - a * ny) / Math::max(along, Pack(0.5 * fit_least_cosine));
-  }
-
-  /// `in` for the samples that the fit takes, `out` for the others.
-  KOKKOS_FORCEINLINE_FUNCTION Pack choose(Pack const &in, Pack const &out) const
-  {
-    return select(Pack(fit_least_cosine) <= along, in, out);
-  }
+  double t[max_fit_samples], y[max_fit_samples], spread[max_fit_samples], slope[max_fit_samples];
+  double taken[max_fit_samples]; // 1, or 0 for those that are left out
+  double omega[max_fit_samples]; // robust factor of the weight
 };
 
-/// Moments of one side's samples: what the normal equations are made of.
+/// Moments of the samples, what the normal equations are made of: w, w t, w q, w y of side a, of side b, and of both
+/// t t, t q, q q, t y, q y; q = (t^2 + spread) / 2.
 struct FitMoments
 {
-  double w, wt, wq, wy; // of the side's own offset
+  double of_side[2][4];
   double tt, tq, qq, ty, qy;
 };
 
-KOKKOS_INLINE_FUNCTION FitMoments fitMoments(FitSide const &s, Vector2 const &n)
+/// Place the samples in the frame of n, and add up their moments.
+/// \param weighed Whether the robust factors are known; else they are one.
+KOKKOS_INLINE_FUNCTION FitMoments fitMoments(FitSamples const &s, Vector2 const &n, bool weighed, FitFrame &frame)
 {
-  Pack w = 0.0, wt = 0.0, wq = 0.0, wy = 0.0, tt = 0.0, tq = 0.0, qq = 0.0, ty = 0.0, qy = 0.0;
+  Pack const nx = n[0], ny = n[1];
+  Pack w_a = 0.0, wt_a = 0.0, wq_a = 0.0, wy_a = 0.0, w_b = 0.0, wt_b = 0.0, wq_b = 0.0, wy_b = 0.0;
+  Pack tt = 0.0, tq = 0.0, qq = 0.0, ty = 0.0, qy = 0.0;
   for (int j = 0; j < s.count; j += pack_width)
   {
-    FitPoints const p(s, j, n);
-    Pack const a = p.choose(loadPack(s.weight + j) * loadPack(s.omega + j), Pack(0.0));
-    Pack const u = Pack(0.1) * a * p.spread;
-    Pack const q = Pack(0.5) * (p.t * p.t + p.spread);
-    Pack const at = a * p.t, aq = a * q, ut = u * p.t;
-    w += a;
-    wt += at;
-    wq += aq;
-    wy += a * p.y;
-    tt += at * p.t + u;
+    Pack const x = loadPack(s.x + j), z = loadPack(s.y + j);
+    Pack const normal_x = loadPack(s.normal_x + j), normal_y = loadPack(s.normal_y + j);
+    Pack const along = normal_x * nx + normal_y * ny, t = x * ny - z * nx, y = x * nx + z * ny;
+    Pack const projected = loadPack(s.length + j) * along;
+    Pack const spread = projected * projected * Pack(1.0 / 12.0);
+    // The line's tangent is -perpendicular(normal) seen along t; those that are left out must not divide by zero.
+    Pack const slope = (normal_y * nx - normal_x * ny) / Math::max(along, Pack(0.5 * fit_least_cosine));
+    Pack const taken = select(Pack(fit_least_cosine) <= along, Pack(1.0), Pack(0.0));
+    storePack(frame.t + j, t);
+    storePack(frame.y + j, y);
+    storePack(frame.spread + j, spread);
+    storePack(frame.slope + j, slope);
+    storePack(frame.taken + j, taken);
+    Pack a = loadPack(s.weight + j) * taken;
+    if (weighed)
+      a = a * loadPack(frame.omega + j);
+    Pack const of_b = a * loadPack(s.of_b + j), of_a = a - of_b;
+    Pack const q = Pack(0.5) * (t * t + spread);
+    w_a += of_a;
+    wt_a += of_a * t;
+    wq_a += of_a * q;
+    wy_a += of_a * y;
+    w_b += of_b;
+    wt_b += of_b * t;
+    wq_b += of_b * q;
+    wy_b += of_b * y;
+    Pack const at = a * t, aq = a * q, u = Pack(0.1) * a * spread, ut = u * t;
+    tt += at * t + u;
     tq += at * q + ut;
-    qq += aq * q + ut * p.t;
-    ty += at * p.y + u * p.slope;
-    qy += aq * p.y + ut * p.slope;
+    qq += aq * q + ut * t;
+    ty += at * y + u * slope;
+    qy += aq * y + ut * slope;
   }
-  return {laneSum(w),  laneSum(wt), laneSum(wq), laneSum(wy), laneSum(tt),
-          laneSum(tq), laneSum(qq), laneSum(ty), laneSum(qy)};
+  Pack sum[16] = {w_a, wt_a, wq_a, wy_a, w_b, wt_b, wq_b, wy_b, tt, tq, qq, ty, qy, 0.0, 0.0, 0.0};
+  double m[16];
+  laneSums(sum, m);
+  return {{{m[0], m[1], m[2], m[3]}, {m[4], m[5], m[6], m[7]}}, m[8], m[9], m[10], m[11], m[12]};
 }
 
 /// Minimise sum w omega (r^2 + 0.1 spread s^2) + W kappa gamma^2 with
 /// r = y - alpha_s - beta t - gamma (t^2 + spread) / 2, s = slope - beta - gamma t, W = sum w omega.
-KOKKOS_INLINE_FUNCTION ParabolaFit fitParabola(FitMoments const &a, FitMoments const &b, double kappa)
+///
+/// The offsets are eliminated first; unknowns without a pivot are zero.
+KOKKOS_INLINE_FUNCTION ParabolaFit fitParabola(FitMoments const &m, double kappa)
 {
-  double const beta_beta = a.tt + b.tt, beta_gamma = a.tq + b.tq;
-  double const gamma_gamma = (a.qq + b.qq) + (a.w + b.w) * kappa;
-  double A[4][4] = {{a.w, 0.0, a.wt, a.wq},
-                    {0.0, b.w, b.wt, b.wq},
-                    {a.wt, b.wt, beta_beta, beta_gamma},
-                    {a.wq, b.wq, beta_gamma, gamma_gamma}};
-  double x[4] = {a.wy, b.wy, a.ty + b.ty, a.qy + b.qy};
-  solve4(A, x);
+  constexpr double no_pivot = 1e-300;
+  double inverse[2];
+  double bb = m.tt, bg = m.tq, gg = m.qq + (m.of_side[0][0] + m.of_side[1][0]) * kappa, b = m.ty, g = m.qy;
+  for (int side = 0; side < 2; ++side)
+  {
+    double const(&of)[4] = m.of_side[side];
+    inverse[side] = of[0] > no_pivot ? 1.0 / of[0] : 0.0;
+    double const t = of[1] * inverse[side], q = of[2] * inverse[side];
+    bb -= t * of[1];
+    bg -= t * of[2];
+    gg -= q * of[2];
+    b -= t * of[3];
+    g -= q * of[3];
+  }
+  double const of_slope = bb > no_pivot ? 1.0 / bb : 0.0, l = bg * of_slope;
+  gg -= l * bg;
   ParabolaFit fit;
-  fit.alpha[0] = x[0];
-  fit.alpha[1] = x[1];
-  fit.beta = x[2];
-  fit.gamma = x[3];
+  fit.gamma = gg > no_pivot ? (g - l * b) / gg : 0.0;
+  fit.beta = (b - bg * fit.gamma) * of_slope;
+  for (int side = 0; side < 2; ++side)
+    fit.alpha[side] =
+        (m.of_side[side][3] - m.of_side[side][1] * fit.beta - m.of_side[side][2] * fit.gamma) * inverse[side];
   return fit;
 }
 
-/// Robust factors omega of a side's samples in the next pass; returns the weighted sum of its squared misfits.
-KOKKOS_INLINE_FUNCTION double reweigh(FitSide &s, Vector2 const &n, ParabolaFit const &fit, double alpha)
+/// Robust factors omega of the samples in the next pass; returns the weighted sum of their squared misfits.
+KOKKOS_INLINE_FUNCTION double reweigh(FitSamples const &s, ParabolaFit const &fit, FitFrame &frame)
 {
   Pack const largest = 0.25; // of a squared misfit
-  Pack const beta = fit.beta, gamma = fit.gamma, one = 1.0;
+  Pack const beta = fit.beta, gamma = fit.gamma, one = 1.0, alpha = fit.alpha[0], more = fit.alpha[1] - fit.alpha[0];
   Pack misfit = 0.0;
   for (int j = 0; j < s.count; j += pack_width)
   {
-    FitPoints const p(s, j, n);
-    Pack const r = p.y - Pack(alpha) - beta * p.t - Pack(0.5) * gamma * (p.t * p.t + p.spread);
-    Pack const d = p.slope - beta - gamma * p.t;
-    Pack const e2 = p.choose(r * r + p.spread * d * d, largest);
-    storePack(s.omega + j, one / (one + e2 * Pack(1.0 / (0.025 * 0.025))));
+    Pack const t = loadPack(frame.t + j), spread = loadPack(frame.spread + j);
+    Pack const r =
+        loadPack(frame.y + j) - (alpha + loadPack(s.of_b + j) * more) - beta * t - Pack(0.5) * gamma * (t * t + spread);
+    Pack const d = loadPack(frame.slope + j) - beta - gamma * t;
+    Pack const e2 = select(Pack(0.0) < loadPack(frame.taken + j), r * r + spread * d * d, largest);
+    storePack(frame.omega + j, one / (one + e2 * Pack(1.0 / (0.025 * 0.025))));
     misfit += loadPack(s.weight + j) * Math::min(e2, largest);
   }
   return laneSum(misfit);
@@ -212,18 +222,15 @@ KOKKOS_INLINE_FUNCTION double reweigh(FitSide &s, Vector2 const &n, ParabolaFit 
 /// \return Unit normal from a to b.
 KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback)
 {
+  samples.fillPack();
   Pack mean_x = 0.0, mean_y = 0.0, weights = 0.0;
-  for (FitSide &s : samples.side)
+  for (int j = 0; j < samples.count; j += pack_width)
   {
-    s.fillPack();
-    for (int j = 0; j < s.count; j += pack_width)
-    {
-      Pack const w = loadPack(s.weight + j), length = loadPack(s.length + j);
-      Pack const of_normal = w * length * length;
-      mean_x += of_normal * loadPack(s.normal_x + j);
-      mean_y += of_normal * loadPack(s.normal_y + j);
-      weights += w;
-    }
+    Pack const w = loadPack(samples.weight + j), length = loadPack(samples.length + j);
+    Pack const of_normal = w * length * length;
+    mean_x += of_normal * loadPack(samples.normal_x + j);
+    mean_y += of_normal * loadPack(samples.normal_y + j);
+    weights += w;
   }
   Vector2 const mean{laneSum(mean_x), laneSum(mean_y)};
   double const total = laneSum(weights);
@@ -234,13 +241,13 @@ KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fal
   int passes = 3;
   Vector2 n = normalised(mean);
   double kappa = 0.1; // the curvature's ridge
+  FitFrame frame;
   for (int pass = 1; pass <= passes; ++pass)
   {
-    ParabolaFit const fit = fitParabola(fitMoments(samples.side[0], n), fitMoments(samples.side[1], n), kappa);
+    ParabolaFit const fit = fitParabola(fitMoments(samples, n, pass > 1, frame), kappa);
     if (pass < passes)
     {
-      double const misfit =
-          reweigh(samples.side[0], n, fit, fit.alpha[0]) + reweigh(samples.side[1], n, fit, fit.alpha[1]);
+      double const misfit = reweigh(samples, fit, frame);
       kappa = Math::min(1.0, Math::max(misfit / total, 0.003 * 0.003) / 0.01);
       if (misfit <= next_to_none * next_to_none * total)
         passes = 2;

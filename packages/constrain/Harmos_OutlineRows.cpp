@@ -204,6 +204,8 @@ OutlineRows findOutlineRows(Mesh const &mesh, InterfaceSegments const &segments,
                             ConstraintOptions const &options, Exchange const &exchange, double reach, double dt)
 {
   OutlineRows rows;
+  if (std::none_of(bodies.begin(), bodies.end(), [](RigidBody const &b) { return b.motion == RigidMotion::Free; }))
+    return rows;
   std::vector<ContactRow> const between = bodyRows(mesh, outline, bodies, options, reach, dt);
   if (exchange.rank() == 0)
   {

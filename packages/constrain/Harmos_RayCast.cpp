@@ -10,8 +10,8 @@ View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, Seg
   View<RayHit *> const hit = work.unset<RayHit *>("Harmos::constrain::hit", segments.count);
   View<InterfaceSegment *> const segment = segments.segment;
   int const count = segments.count;
-  Kokkos::parallel_for(
-      "Harmos::constrain::castRays", RangePolicy(0, segments.count),
+  launchFor(
+      "Harmos::constrain::castRays", segments.count,
       KOKKOS_LAMBDA(int i) { hit(i) = castRay(mesh, segment, count, bins, segment(i), i); });
   return hit;
 }

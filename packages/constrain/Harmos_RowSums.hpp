@@ -3,6 +3,7 @@
 #define HARMOS_ROW_SUMS_HPP
 
 #include <Harmos_Exchange.hpp>
+#include <Harmos_Launch.hpp>
 #include <Harmos_ReducedValues.hpp>
 
 #include <array>
@@ -36,8 +37,8 @@ std::array<double, Width> reproducibleColumnSums(View<double *[Width]> const &te
 {
   int const count = static_cast<int>(term.extent(0));
   double largest = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::largestTerm", RangePolicy(0, count),
+  launchReduce(
+      "Harmos::constrain::largestTerm", count,
       KOKKOS_LAMBDA(int i, double &l) {
         for (int c = 0; c < Width; ++c)
           l = Math::max(l, Math::fabs(term(i, c)));

@@ -10,8 +10,8 @@ double largestSegment(Mesh const &mesh, InterfaceSegments const &segments)
   View<InterfaceSegment *> const segment = segments.segment;
   View<int *> const depth = mesh.cell_depth;
   double largest = 0.0;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::largestSegment", RangePolicy(0, segments.count),
+  launchReduce(
+      "Harmos::constrain::largestSegment", segments.count,
       KOKKOS_LAMBDA(int i, double &l) {
         if (depth(segment(i).cell) == 0)
           l = Math::max(l, Math::max(segment(i).length, segment(i).cell_size));
@@ -64,8 +64,8 @@ int spread(View<InterfaceSegment *> const &segment, int count, SegmentBins &bins
 {
   constexpr long long roomy = 64; // bins of the grid for each segment, beyond which it is hashed
   MidpointBox box;
-  Kokkos::parallel_reduce(
-      "Harmos::constrain::midpointBox", RangePolicy(0, count),
+  launchReduce(
+      "Harmos::constrain::midpointBox", count,
       KOKKOS_LAMBDA(int i, MidpointBox &sum) {
         sum.join({segment(i).midpoint, segment(i).midpoint});
       },
@@ -97,22 +97,28 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest, WorkA
   int const buckets = spread(segment, count, bins);
   bins.offset = work.unset<int *>("Harmos::constrain::bin_offset", buckets + 1);
   bins.item = work.unset<BinnedSegment *>("Harmos::constrain::bin_item", count);
-  // What lies behind the last item is masked out, but compared with.
-  bins.column = work.zeros<double **>("Harmos::constrain::bin_column", num_bin_columns, count + pack_width);
+  bins.column = work.unset<double **>("Harmos::constrain::bin_column", num_bin_columns, count + pack_width);
   bins.materials = work.unset<unsigned long long *>("Harmos::constrain::bin_materials", buckets);
   View<int *[2]> const bin = work.unset<int *[2]>("Harmos::constrain::bin", count); // column, row
   View<int *> const bucket = work.unset<int *>("Harmos::constrain::bucket", count);
   View<int *> const order = work.unset<int *>("Harmos::constrain::bin_order", count);
   View<int *> const filled = work.zeros<int *>("Harmos::constrain::bin_filled", buckets);
-  Kokkos::parallel_for(
-      "Harmos::constrain::countBins", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::lastPack", pack_width, KOKKOS_LAMBDA(int i) {
+        for (int c = 0; c < num_bin_columns; ++c) // masked out, but compared with
+          bins.column(c, count + i) = 0.0;
+      });
+  launchFor(
+      "Harmos::constrain::countBins", count, KOKKOS_LAMBDA(int i) {
         bin(i, 0) = bins.index(segment(i).midpoint[0]);
         bin(i, 1) = bins.index(segment(i).midpoint[1]);
         bucket(i) = bins.bucket(bin(i, 0), bin(i, 1));
         Kokkos::atomic_add(&filled(bucket(i)), 1);
       });
-  Kokkos::parallel_scan(
-      "Harmos::constrain::scanBins", RangePolicy(0, buckets + 1), KOKKOS_LAMBDA(int b, int &sum, bool final) {
+  int all = 0;
+  launchScan(
+      "Harmos::constrain::scanBins", buckets + 1,
+      KOKKOS_LAMBDA(int b, int &sum, bool final) {
         int const here = b < buckets ? filled(b) : 0;
         if (final)
         {
@@ -121,12 +127,13 @@ SegmentBins binSegments(InterfaceSegments const &segments, double largest, WorkA
             filled(b) = 0;
         }
         sum += here;
-      });
-  Kokkos::parallel_for(
-      "Harmos::constrain::fillBins", RangePolicy(0, count),
+      },
+      all);
+  launchFor(
+      "Harmos::constrain::fillBins", count,
       KOKKOS_LAMBDA(int i) { order(bins.offset(bucket(i)) + Kokkos::atomic_fetch_add(&filled(bucket(i)), 1)) = i; });
-  Kokkos::parallel_for(
-      "Harmos::constrain::sortBins", RangePolicy(0, buckets), KOKKOS_LAMBDA(int b) {
+  launchFor(
+      "Harmos::constrain::sortBins", buckets, KOKKOS_LAMBDA(int b) {
         int const begin = bins.offset(b), end = bins.offset(b + 1);
         unsigned long long materials = 0;
         sortRange(order, begin, end);
@@ -149,8 +156,8 @@ SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen, Work
   int const count = static_cast<int>(bins.item.extent(0)), buckets = static_cast<int>(bins.offset.extent(0)) - 1;
   View<int *> const place = work.unset<int *>("Harmos::constrain::chosen_place", count + 1);
   int total = 0;
-  Kokkos::parallel_scan(
-      "Harmos::constrain::placeChosen", RangePolicy(0, count + 1),
+  launchScan(
+      "Harmos::constrain::placeChosen", count + 1,
       KOKKOS_LAMBDA(int i, int &sum, bool final) {
         if (final)
           place(i) = sum;
@@ -161,11 +168,11 @@ SegmentBins chosenItems(SegmentBins const &bins, View<int *> const &chosen, Work
   result.column = {};
   result.offset = work.unset<int *>("Harmos::constrain::chosen_offset", buckets + 1);
   result.item = work.unset<BinnedSegment *>("Harmos::constrain::chosen_item", total);
-  Kokkos::parallel_for(
-      "Harmos::constrain::chosenOffsets", RangePolicy(0, buckets + 1),
+  launchFor(
+      "Harmos::constrain::chosenOffsets", buckets + 1,
       KOKKOS_LAMBDA(int b) { result.offset(b) = place(bins.offset(b)); });
-  Kokkos::parallel_for(
-      "Harmos::constrain::chosenItems", RangePolicy(0, count), KOKKOS_LAMBDA(int i) {
+  launchFor(
+      "Harmos::constrain::chosenItems", count, KOKKOS_LAMBDA(int i) {
         if (chosen(i) == 1)
           result.item(place(i)) = bins.item(i);
       });

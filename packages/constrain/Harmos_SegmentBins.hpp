@@ -50,7 +50,7 @@ struct SegmentBins
   KOKKOS_INLINE_FUNCTION int bucket(int column, int row) const
   {
     if (!hashed)
-      return (row - first_row) * (last_column - first_column + 1) + column - first_column;
+      return gridBucket(column, row);
     unsigned const h = static_cast<unsigned>(column) * 73856093u ^ static_cast<unsigned>(row) * 19349663u;
     return static_cast<int>((h ^ (h >> 15)) & static_cast<unsigned>(mask));
   }
@@ -70,8 +70,17 @@ struct SegmentBins
     unsigned long long bits = 0;
     Range const r = range(low, high);
     for (int row = r.south; row <= r.north; ++row)
+    {
+      if (!hashed)
+      {
+        int const start = gridBucket(0, row);
+        for (int column = r.west; column <= r.east; ++column)
+          bits |= materials(start + column);
+        continue;
+      }
       for (int column = r.west; column <= r.east; ++column)
         bits |= materials(bucket(column, row));
+    }
     return (bits & ~materialBit(material)) != 0;
   }
 
@@ -86,7 +95,9 @@ struct SegmentBins
     {
       if (!hashed) // the bins of a row of the grid lie side by side
       {
-        visit(offset(bucket(r.west, row)), offset(bucket(r.east, row) + 1));
+        int const start = gridBucket(0, row), begin = offset(start + r.west), end = offset(start + r.east + 1);
+        if (begin < end)
+          visit(begin, end);
         continue;
       }
       for (int column = r.west; column <= r.east; ++column)
@@ -109,6 +120,11 @@ struct SegmentBins
   }
 
 private:
+  KOKKOS_FORCEINLINE_FUNCTION int gridBucket(int column, int row) const
+  {
+    return (row - first_row) * (last_column - first_column + 1) + column - first_column;
+  }
+
   struct Range
   {
     int west, east, south, north;

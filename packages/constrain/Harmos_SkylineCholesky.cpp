@@ -25,6 +25,30 @@ void LowerTriangle::multiply(std::vector<double> const &x, std::vector<double> &
   }
 }
 
+namespace
+{
+
+/// Unknowns by the number of their neighbours, those of equal number in their own order.
+std::vector<int> byNeighbours(std::vector<int> const &offset)
+{
+  int const n = static_cast<int>(offset.size()) - 1;
+  std::vector<int> place(1, 0);
+  for (int i = 0; i < n; ++i)
+  {
+    std::size_t const behind = static_cast<std::size_t>(offset[i + 1] - offset[i]) + 1;
+    if (behind >= place.size())
+      place.resize(behind + 1, 0);
+    ++place[behind];
+  }
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  std::vector<int> start(n);
+  for (int i = 0; i < n; ++i)
+    start[place[offset[i + 1] - offset[i]]++] = i;
+  return start;
+}
+
+} // namespace
+
 std::vector<int> reverseCuthillMcKee(std::vector<int> const &offset, std::vector<int> const &item)
 {
   int const n = static_cast<int>(offset.size()) - 1;
@@ -33,9 +57,8 @@ std::vector<int> reverseCuthillMcKee(std::vector<int> const &offset, std::vector
     int const degree_a = offset[a + 1] - offset[a], degree_b = offset[b + 1] - offset[b];
     return degree_a != degree_b ? degree_a < degree_b : a < b;
   };
-  std::vector<int> start(n), order;
-  std::iota(start.begin(), start.end(), 0);
-  std::sort(start.begin(), start.end(), fewerNeighbours);
+  std::vector<int> const start = byNeighbours(offset);
+  std::vector<int> order;
   order.reserve(n);
   std::vector<char> seen(n, 0);
   auto const append = [&](int i)

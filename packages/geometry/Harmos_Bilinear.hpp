@@ -18,6 +18,22 @@ KOKKOS_INLINE_FUNCTION void shapeFunctions(Vector2 const &xi, double N[4])
   N[3] = (1.0 - xi[0]) * xi[1];
 }
 
+/// The same iteration where the derivatives do not change: its second step corrects round-off of the first.
+KOKKOS_INLINE_FUNCTION Vector2 parallelogramCoordinates(Vector2 const &e1, Vector2 const &e2, Vector2 const &d)
+{
+  double const det = cross(e1, e2);
+  Vector2 xi{0.5, 0.5};
+  for (int i = 0; i < 20 && det != 0.0; ++i)
+  {
+    Vector2 const residual = d - (xi[0] * e1 + xi[1] * e2);
+    Vector2 const step{cross(residual, e2) / det, cross(e1, residual) / det};
+    xi += step;
+    if (Math::fabs(step[0]) + Math::fabs(step[1]) < 1e-15)
+      break;
+  }
+  return xi;
+}
+
 /// Reference coordinates of a point: Newton's iteration on x(xi) = point from the centre, at most 20 steps.
 ///
 /// Exact after one step on parallelograms. Points slightly outside give coordinates slightly outside [0, 1]; nothing
@@ -28,6 +44,8 @@ KOKKOS_INLINE_FUNCTION Vector2 referenceCoordinates(Quadrilateral const &cell, V
   Vector2 const e2 = cell[3] - cell[0];
   Vector2 const twist = (cell[0] - cell[1]) + (cell[2] - cell[3]);
   Vector2 const d = point - cell[0];
+  if (twist[0] == 0.0 && twist[1] == 0.0)
+    return parallelogramCoordinates(e1, e2, d);
   double const scale = Math::fabs(cross(e1, e2)) + Math::fabs(cross(twist, e2)) + Math::fabs(cross(e1, twist));
   Vector2 xi{0.5, 0.5};
   for (int i = 0; i < 20; ++i)

@@ -2,7 +2,7 @@
 #ifndef HARMOS_WORK_ARRAYS_HPP
 #define HARMOS_WORK_ARRAYS_HPP
 
-#include <Harmos_Kokkos.hpp>
+#include <Harmos_Launch.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -47,8 +47,8 @@ public:
     constexpr int piece = 256; // compilers make one call of each
     auto *const value = view.data();
     int const count = static_cast<int>(view.span());
-    Kokkos::parallel_for(
-        "Harmos::zeros", RangePolicy(0, (count + piece - 1) / piece), KOKKOS_LAMBDA(int p) {
+    launchFor(
+        "Harmos::zeros", (count + piece - 1) / piece, KOKKOS_LAMBDA(int p) {
           int const end = p * piece + piece < count ? p * piece + piece : count;
           for (int i = p * piece; i < end; ++i)
             value[i] = {};
@@ -62,7 +62,7 @@ public:
   {
     View<T *> const view = unset<T *>(label, values.size());
     Kokkos::View<T const *, Kokkos::HostSpace, Kokkos::MemoryUnmanaged> const host(values.data(), values.size());
-    Kokkos::deep_copy(view, host);
+    launchCopy(view, host);
     return view;
   }
 

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_FACING_SEGMENTS_HPP
+#define HARMOS_FACING_SEGMENTS_HPP
+
+#include <Harmos_NormalFit.hpp>
+#include <Harmos_RayCast.hpp>
+
+namespace Harmos
+{
+
+/// What a fit reads of a facing segment, in columns; lengths in the mesh's unit.
+enum FacingColumn : int
+{
+  FacingX,
+  FacingY,
+  FacingNormalX,
+  FacingNormalY,
+  FacingLength,
+  FacingGap,
+  FacingCellX,
+  FacingCellY,
+  FacingMaterial, // exact integers
+  FacedMaterial,  // of what it faces
+  num_facing_columns
+};
+
+/// The segments whose normals may serve a fit: those that face another one, near enough to parallel.
+struct FacingSegments
+{
+  SegmentBins bins;       // of these alone
+  View<double **> column; // num_facing_columns x segments in the order of the bins, and room for a last pack
+};
+
+/// \param hit Of the segments' rays.
+FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
+                              SegmentBins const &bins, WorkArrays const &work = {});
+
+/// Gathers the samples of a fit at a segment's point, pack by pack.
+struct SampleGatherer
+{
+  FacingSegments const &facing;
+  InterfaceSegment const &at;
+  double material_a, material_b;
+  double shortest; // of side b [cells]
+  FitSamples &samples;
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack column(FacingColumn which, int i) const
+  {
+    return loadPack(&facing.column(which, i));
+  }
+
+  /// Cells from `at` to that of the samples, along direction d of the lattice.
+  KOKKOS_FORCEINLINE_FUNCTION Pack cellsApart(Pack const &x, Pack const &y, int d) const
+  {
+    return Math::fabs(x * Pack(at.lattice[d][0]) + y * Pack(at.lattice[d][1]));
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int begin, int end) const
+  {
+    for (int i = begin; i < end; i += pack_width)
+      take(i, end);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void take(int i, int end) const
+  {
+    constexpr double most_apart = 3.5; // the 7 x 7 cells
+    Pack const a = material_a, b = material_b, inverse_h = 1.0 / at.cell_size;
+    Pack const material = column(FacingMaterial, i), faced = column(FacedMaterial, i);
+    auto const of_a = both(material == a, faced == b);
+    auto const of_b = both(both(material == b, faced == a), Pack(shortest * at.cell_size) <= column(FacingLength, i));
+    Pack const x = inverse_h * (column(FacingX, i) - Pack(at.point[0]));
+    Pack const y = inverse_h * (column(FacingY, i) - Pack(at.point[1]));
+    Pack const distance_squared = x * x + y * y;
+    Pack const length = inverse_h * column(FacingLength, i);
+    Pack const weight = fitWeight(length, distance_squared, inverse_h * column(FacingGap, i));
+    Pack const cell_x = column(FacingCellX, i) - Pack(at.cell_centre[0]);
+    Pack const cell_y = column(FacingCellY, i) - Pack(at.cell_centre[1]);
+    auto const near =
+        both(cellsApart(cell_x, cell_y, 0) <= Pack(most_apart), cellsApart(cell_x, cell_y, 1) <= Pack(most_apart));
+    auto const serves = both(both(either(of_a, of_b), near), both(weight > Pack(0.0), laneNumbers() < Pack(end - i)));
+    unsigned const lanes = lanesOf(serves);
+    if (lanes == 0u)
+      return;
+    Pack const outward = select(of_a, Pack(1.0), Pack(-1.0)); // of a
+    samples.pushPack(lanes, x, y, outward * column(FacingNormalX, i), outward * column(FacingNormalY, i), length,
+                     weight, select(of_a, Pack(0.0), Pack(1.0)));
+  }
+};
+
+/// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
+/// `target` is what the ray of s (a segment or a part of one) meets, a segment of another material (no wall).
+KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, FacingSegments const &facing,
+                                             double shortest, InterfaceSegment const &s, int target)
+{
+  FitSamples samples;
+  Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
+  facing.bins.forEachRun(s.point - reach, s.point + reach,
+                         SampleGatherer{facing, s, static_cast<double>(s.material),
+                                        static_cast<double>(segment(target).material), shortest, samples});
+  return fitNormal(samples, normalised(s.normal - segment(target).normal));
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_LaneMoves.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace Harmos;
+
+namespace
+{
+
+/// Lanes first + 1, first + 2, ...
+Pack countedPack(double first)
+{
+  return packOf([=](int lane) { return first + lane + 1.0; });
+}
+
+} // namespace
+
+TEST(LaneMoves, laneSums_areThoseOfEachPack)
+{
+  constexpr int count = 16;
+  Pack pack[count];
+  double expected[count], sum[count];
+  for (int i = 0; i < count; ++i)
+  {
+    pack[i] = packOf([=](int lane) { return 1.0 / (3.0 + i + 7.0 * lane); });
+    expected[i] = laneSum(pack[i]);
+  }
+  laneSums(pack, sum);
+  for (int i = 0; i < count; ++i)
+    EXPECT_EQ(sum[i], expected[i]) << i;
+}
+
+TEST(LaneMoves, chosenLanes_moveToTheFrontInTheirOrder)
+{
+  for (unsigned lanes = 0; lanes <= all_lanes; ++lanes)
+  {
+    LaneCompressor const chosen(lanes);
+    Pack const front = chosen(countedPack(10.0));
+    int count = 0;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      if ((lanes >> lane & 1u) == 0u)
+        continue;
+      EXPECT_EQ(laneOf(front, count), 11.0 + lane) << lanes;
+      ++count;
+    }
+    EXPECT_EQ(chosen.count, count) << lanes;
+  }
+}
