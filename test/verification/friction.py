@@ -87,11 +87,12 @@ def test_a_bond_of_two_bars_holds_below_its_strength_and_breaks_above():
         clean(r)
 
 
-def pulled(angle, shear):
+def pulled(angle, shear, offset=0.0):
     """Traction over strength where a joint breaks whose load grows slowly; exact is one. Waves of both grips make steps of 0.04.
 
     The load is what the displacement of the grips gives without waves: (2 G d / length) of a bar without lateral strain, G d / height
-    of a sheared layer (which is without load at its ends, over about its height).
+    of a sheared layer (which is without load at its ends, over about its height). By offsets of 1e-9 cells a sheared layer at 30 degrees
+    breaks at 0.935 to 0.984: the median of a few says more than one.
     """
     rho, g, strength, step = 1000.0, 1.5e9, 3.0e6, 0.02
     half, width = (4.0, 20.0) if shear else (12.0, 8.0)
@@ -100,7 +101,7 @@ def pulled(angle, shear):
     c, s = cos(radians(angle)), sin(radians(angle))
 
     def at(x, y):
-        return f"[{0.31 + x * c - y * s}, {0.17 + x * s + y * c}]"
+        return f"[{0.31 + offset + x * c - y * s}, {0.17 + x * s + y * c}]"
 
     ahead = (-s, c) if shear else (c, s)
     settings = {"run/end_time": 1.2 * strength * half / (stiffness * speed)}
@@ -126,7 +127,8 @@ def test_a_joint_breaks_at_its_strength_whatever_its_angle_to_the_mesh():
     for angle in (0.0, 20.0, 45.0):
         check("traction over tensile strength, from one", abs(pulled(angle, False) - 1.0), 0.07)
     for angle in (0.0, 30.0):
-        check("traction over shear strength, from one", abs(pulled(angle, True) - 1.0), 0.07)
+        found = sorted(pulled(angle, True, offset) for offset in ((0.0,) if angle == 0.0 else (0.0, 1e-9, 2e-9)))
+        check("traction over shear strength, from one", abs(found[len(found) // 2] - 1.0), 0.07)
 
 
 def parted(part, angle, shift, courant):
