@@ -20,6 +20,8 @@ struct RigidSurface
   double radius;  // circle; zero: an edge [length]
   double outward; // circle: 1, or -1 for a hole
 
+  KOKKOS_INLINE_FUNCTION bool isLine() const { return length < 0.0; }
+
   /// Unit vector at the foot of x that leaves the body.
   KOKKOS_INLINE_FUNCTION Vector2 normalAt(Vector2 const &x) const
   {
@@ -36,7 +38,7 @@ struct RigidSurface
   KOKKOS_INLINE_FUNCTION bool isBeside(Vector2 const &x) const
   {
     double const along = dot(x - origin, perpendicular(normal));
-    return radius > 0.0 || length < 0.0 || (along >= 0.0 && along <= length);
+    return radius > 0.0 || isLine() || (along >= 0.0 && along <= length);
   }
 };
 
@@ -49,8 +51,9 @@ struct RigidSurfaces
   /// \brief The outward normal of a rigid body where a point of contact has its foot on the outline.
   ///
   /// That of the surface which the body's own facet stands for: it is no farther from the facet's midpoint than half of
-  /// a cell, and turned from it by 41 degrees at most; of several the nearest. A facet that cuts off a right corner,
-  /// and one where another body is painted over this one, stands for none.
+  /// a cell, and turned from it by 41 degrees at most (a half-plane: at all, it has nothing else); of several the
+  /// nearest. A facet that cuts off a right corner, and one where another body is painted over this one, stands for
+  /// none.
   ///
   /// \param midpoint, facet_normal Of the body's facet; the normal leaves the body. \param point Of contact.
   /// \return Zero where there is none, and where the foot lies beyond the ends of the edge: at a corner it is the other
@@ -68,7 +71,8 @@ struct RigidSurfaces
     {
       RigidSurface const &s = surface(k);
       double const distance = Math::fabs(s.height(midpoint));
-      if (distance < nearest && s.isBeside(midpoint) && dot(s.normalAt(midpoint), facet_normal) >= least_cosine)
+      bool const alike = s.isLine() || dot(s.normalAt(midpoint), facet_normal) >= least_cosine;
+      if (distance < nearest && s.isBeside(midpoint) && alike)
       {
         nearest = distance;
         normal = s.isBeside(point) ? s.normalAt(point) : Vector2{0.0, 0.0};
