@@ -53,6 +53,13 @@ struct CellComponents
     return weight.uniform() || region.empty() ? area(region) : momentsOf(region).volume();
   }
 
+  /// First moment of a region less that which component k would have at its centroid with the region's volume.
+  KOKKOS_INLINE_FUNCTION Vector2 firstMiss(Region const &region, int k) const
+  {
+    Moments<1> const m = momentsOf(region);
+    return Vector2{m.first(0), m.first(1)} + m.volume() * (region[0] - centroid[k]);
+  }
+
   KOKKOS_INLINE_FUNCTION double volumeOf(ComponentSet set) const
   {
     double sum = 0.0;

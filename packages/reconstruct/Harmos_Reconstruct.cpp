@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Reconstruct.hpp>
 
+#include <Harmos_CornerCell.hpp>
 #include <Harmos_PartedPlan.hpp>
 
 namespace Harmos
@@ -46,11 +47,18 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
   {
     int order[max_components];
     givenOrder(components, options.order, order);
-    return fixedPlan(field, components, options.method, slivers, order);
+    RemovalPlan const plan = fixedPlan(field, components, options.method, slivers, order);
+    return options.method == ReconstructionMethod::MomentOfFluid && options.order.extent(0) == 0
+               ? cornerPlan(field, components, slivers, plan)
+               : plan;
   }
   if (components.count > max_exhaustive_components)
     return greedyPlan(field, components, slivers);
-  RemovalPlan const plan = partedPlan(field, components, slivers, bestPlan(field, components, slivers));
+  RemovalPlan const sequence = bestPlan(field, components, slivers);
+  RemovalPlan const corner = cornerPlan(field, components, slivers, sequence);
+  if (corner.corner)
+    return corner;
+  RemovalPlan const plan = partedPlan(field, components, slivers, sequence);
   return planForVoidTip(field, components, options.sliver, plan);
 }
 
@@ -99,6 +107,15 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
     for (int v = 0; v < part.size; ++v)
       region[v] = components.fromUnit(part[v]);
   };
+  // Such cuts are no sequence that `refill` could keep.
+  auto const forgetCuts = [&]()
+  {
+    for (int i = 0; i < num_pairs; ++i)
+    {
+      regions.cut_component(first + i) = -1;
+      regions.cut_normal(first + i) = {0.0, 0.0};
+    }
+  };
   if (plan.parted)
   {
     double const open[2] = {plan.void_part, components.volume[2] - plan.void_part};
@@ -111,9 +128,27 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
                 ? divide(part, plan.normal[k + 1], components.volume[k], open[k], components.weight).inside
                 : part,
             k);
-      regions.cut_component(first + k) = -1;
-      regions.cut_normal(first + k) = {0.0, 0.0};
     }
+    forgetCuts();
+    return status;
+  }
+  if (plan.corner)
+  {
+    double const open = components.volume[num_pairs], rest = open - plan.void_part;
+    int const body = plan.component[num_pairs - 1];
+    Region polygon = components.polygon;
+    if (num_pairs == 2)
+    {
+      int const other = plan.component[0];
+      Division const cut =
+          divide(polygon, plan.normal[0], components.volume[other], components.volume[body] + open, components.weight);
+      write(cut.inside, other);
+      polygon = cut.outside;
+    }
+    Division const one =
+        divide(polygon, plan.normal[num_pairs - 1], components.volume[body] + rest, plan.void_part, components.weight);
+    write(divide(one.inside, plan.normal[num_pairs], components.volume[body], rest, components.weight).inside, body);
+    forgetCuts();
     return status;
   }
   for (int i = 0; i < num_pairs; ++i)

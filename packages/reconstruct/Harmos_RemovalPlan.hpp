@@ -12,7 +12,8 @@ namespace Harmos
 
 /// In which order a cell's components are cut off, and with which normals; the last one keeps the remainder. Or the
 /// cell is parted: normal[0] leaves the part that component 0 shares with void_part of the void, normal[1] and
-/// normal[2] leave components 0 and 1 in their parts.
+/// normal[2] leave components 0 and 1 in their parts. Or the last body that is left has a corner: of the polygon that
+/// it shares with void the last two normals, which leave the body, cut off void_part and then the rest of the void.
 struct RemovalPlan
 {
   int count = 0;
@@ -20,7 +21,7 @@ struct RemovalPlan
   Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
   double error = 0.0;             // the measure that orders are compared by
   int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
-  bool parted = false;
+  bool parted = false, corner = false;
   double void_part = 0.0; // of the cell
 
   KOKKOS_INLINE_FUNCTION void set(int i, int which, Vector2 const &its_normal)
@@ -59,6 +60,7 @@ struct CutNormal
 {
   Vector2 normal; // unit, leaves the inside
   double penalty; // 0.1 V misfit where least squares placed a sliver of volume V
+  double error;   // |first moment of the part that was placed by its centroid - the given one|^2
   bool converged; // of the search for the angle
 };
 
@@ -72,7 +74,7 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
   {
     Vector2 const gradient = youngsGradient(field, components, {inside, outside});
     Vector2 const normal = norm(gradient) > 1e-13 ? -normalised(gradient) : Vector2{1.0, 0.0};
-    return {normal, 0.0, true};
+    return {normal, 0.0, 0.0, true};
   }
   double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
   bool const cut_inside = inside_volume <= outside_volume;
@@ -85,10 +87,10 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
     if (!(dot(fallback, fallback) > 0.5))
       fallback = {1.0, 0.0};
     LeastSquaresLine const line = leastSquaresLine(field, components, polygon, inside, outside, fallback);
-    return {line.normal, sliver_penalty * volume * line.misfit, line.converged};
+    return {line.normal, sliver_penalty * volume * line.misfit, 0.0, line.converged};
   }
   MomentOfFluidLine const line = momentOfFluidLine(polygon, volume, centroid, components.weight);
-  return {cut_inside ? line.normal : -line.normal, 0.0, line.converged};
+  return {cut_inside ? line.normal : -line.normal, 0.0, volume * volume * line.squared_error, line.converged};
 }
 
 /// Whether the region found for a sliver, cut off along n, lies on the other side of a larger component than the
@@ -121,15 +123,14 @@ KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, Sliv
   bool const sliver = volume < slivers.of(components, k);
   if (region.empty() || (sliver && components.material[k] == void_material))
     return 0.0;
-  Moments<1> const m = components.momentsOf(region);
-  Vector2 const &given = components.centroid[k];
   if (sliver)
   {
-    Vector2 const found = region[0] + m.centroid();
+    Vector2 const found = region[0] + components.momentsOf(region).centroid();
+    Vector2 const &given = components.centroid[k];
     double const across = dot(n, found - given);
     return beyondAnother(components, slivers, n, found, k) ? sliver_penalty * volume * across * across : 0.0;
   }
-  Vector2 const first = Vector2{m.first(0), m.first(1)} + m.volume() * (region[0] - given);
+  Vector2 const first = components.firstMiss(region, k);
   return dot(first, first);
 }
 
@@ -167,6 +168,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, C
     rest &= ~(1u << k);
     CutNormal const cut = cutNormal(field, components, method, slivers, polygon, 1u << k, rest);
     plan.set(i, k, cut.normal);
+    plan.error += cut.error;
     plan.unfinished += cut.converged ? 0 : 1;
     if (i + 2 < components.count)
       polygon =

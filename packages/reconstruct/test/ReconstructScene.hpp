@@ -75,6 +75,18 @@ inline Mesh makeMesh(int nx, int ny, double h, double shake = 0.0, unsigned seed
   return mesh;
 }
 
+/// A mesh about the axis, or far from it (r from `left` on).
+inline Mesh ringMesh(int n, double left, double shake, unsigned seed)
+{
+  Mesh mesh = makeMesh(n, n, 1.0 / n, shake, seed);
+  mesh.geometry = Geometry::Axisymmetric;
+  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
+  for (int node = 0; node < mesh.num_nodes; ++node)
+    x(node, 0) += left;
+  Kokkos::deep_copy(mesh.node_position, x);
+  return mesh;
+}
+
 /// One material in one cell.
 struct Fill
 {

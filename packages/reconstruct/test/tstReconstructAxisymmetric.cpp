@@ -12,21 +12,9 @@ using namespace Harmos::Testing;
 namespace
 {
 
-/// A mesh about the axis, or far from it (r from `left` on).
-Mesh ringMesh(int n, double left, double shake)
-{
-  Mesh mesh = makeMesh(n, n, 1.0 / n, shake, 5);
-  mesh.geometry = Geometry::Axisymmetric;
-  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
-  for (int node = 0; node < mesh.num_nodes; ++node)
-    x(node, 0) += left;
-  Kokkos::deep_copy(mesh.node_position, x);
-  return mesh;
-}
-
 double misplaced(ReconstructionMethod method, double sliver, double left, double degrees, double *volume_error)
 {
-  Mesh const mesh = ringMesh(8, left, 0.25);
+  Mesh const mesh = ringMesh(8, left, 0.25, 5);
   Vector2 const point{left + 0.47, 0.53};
   std::vector<Testing::Body> const both{{halfPlane(degrees, point)}, {halfPlane(degrees + 180.0, point)}};
   Testing::Scene const scene = paint(mesh, bodies(both, Geometry::Axisymmetric));

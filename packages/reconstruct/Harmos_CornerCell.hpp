@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CORNER_CELL_HPP
+#define HARMOS_CORNER_CELL_HPP
+
+#include <Harmos_RemovalPlan.hpp>
+
+namespace Harmos
+{
+
+/// A body with a convex corner in void: two lines cut void off the polygon that both share.
+struct CornerCell
+{
+  static constexpr int unknowns = 3, most_residuals = 2 + 8;
+  double x[unknowns]; // angles of both normals, which leave the body; the first line's part of the void
+  Vector2 normal[2];  // (cos, sin) of the angles
+  double open;        // void that the first line cuts off
+  double residual[most_residuals];
+  double error = 1e300; // sum of their squares
+};
+
+/// Which corner suits the body's centroid c and the neighbours best: least
+///
+///   |V x - V c|^2 + (weight / N) sum_j (g_j - f_j)^2
+///
+/// over both angles and the first line's part of the void. x: centroid of what the lines leave of the polygon, whose
+/// volume is V throughout; g_j: part of neighbour j behind both lines, and beyond the rim where there is one; f_j: the
+/// body's fraction there. Three parameters meet two coordinates of a centroid: it is the neighbours that tell a corner.
+struct CornerProblem
+{
+  static constexpr int most_neighbours = CornerCell::most_residuals - 2;
+  CellComponents const &components;
+  int body;              // its component
+  Region const &polygon; // what body and void share
+  Plane2 const *rim;     // behind it lies what was cut off before; none: null
+  double volume, void_volume;
+  int count;    // of the neighbours; others are not looked at
+  double scale; // square root of the weight over N
+  Quadrilateral quad[most_neighbours];
+  double quad_volume[most_neighbours], fraction[most_neighbours];
+
+  /// \param of_misfit Weight of the mean squared misfit, of the smaller volume.
+  KOKKOS_INLINE_FUNCTION CornerProblem(ReconstructionField const &field, CellComponents const &c, int of_body,
+                                       Region const &shared, Plane2 const *cut, double of_misfit)
+      : components(c), body(of_body), polygon(shared), rim(cut), volume(c.volume[of_body]),
+        void_volume(c.volume[c.count - 1])
+  {
+    Rows const &neighbours = field.mesh.cell_neighbour;
+    int const first = neighbours.offset(c.cell);
+    count = Math::min(most_neighbours, neighbours.offset(c.cell + 1) - first);
+    scale = Math::sqrt(of_misfit * Math::min(volume, void_volume) / Math::max(1, count));
+    for (int j = 0; j < count; ++j)
+    {
+      int const cell = neighbours.item(first + j);
+      quad[j] = unitQuadrilateral(field.mesh, components, cell);
+      quad_volume[j] = Harmos::volume(quad[j], components.weight);
+      fraction[j] = setFraction(field, components, 1u << body, cell);
+    }
+  }
+
+  /// Part of neighbour j behind all lines.
+  KOKKOS_INLINE_FUNCTION double partBehind(int j, Plane2 const *line, int lines) const
+  {
+    int crossed[3], count_crossed = 0;
+    for (int l = 0; l < lines; ++l)
+    {
+      int behind = 0;
+      for (int k = 0; k < 4; ++k)
+        behind += dot(line[l].normal, quad[j][k]) <= line[l].offset ? 1 : 0;
+      if (behind == 0)
+        return 0.0;
+      if (behind < 4)
+        crossed[count_crossed++] = l;
+    }
+    if (count_crossed == 0)
+      return 1.0;
+    Region part, next;
+    clip(quad[j], line[crossed[0]], part);
+    for (int i = 1; i < count_crossed && !part.empty(); ++i)
+    {
+      clip(part, line[crossed[i]], next);
+      part = next;
+    }
+    return part.empty() ? 0.0 : components.volumeOfRegion(part) / quad_volume[j];
+  }
+
+  /// \param line One or two; the rim is added.
+  KOKKOS_INLINE_FUNCTION void measure(Region const &region, Plane2 const *line, int lines, CornerCell &cell) const
+  {
+    Plane2 all[3];
+    for (int l = 0; l < lines; ++l)
+      all[l] = line[l];
+    if (rim != nullptr)
+      all[lines] = {-rim->normal, -rim->offset};
+    int const count_all = lines + (rim != nullptr ? 1 : 0);
+    Vector2 const apart = components.firstMiss(region, body);
+    cell.residual[0] = apart[0];
+    cell.residual[1] = apart[1];
+    for (int j = 0; j < count; ++j)
+      cell.residual[2 + j] = scale * (partBehind(j, all, count_all) - fraction[j]);
+    cell.error = 0.0;
+    for (int i = 0; i < 2 + count; ++i)
+      cell.error += cell.residual[i] * cell.residual[i];
+  }
+
+  /// Both lines in turn, so that what they leave has the body's volume.
+  KOKKOS_INLINE_FUNCTION CornerCell at(double const (&x)[CornerCell::unknowns]) const
+  {
+    constexpr double least_part = 1e-6;
+    CornerCell cell;
+    cell.x[0] = x[0];
+    cell.x[1] = x[1];
+    cell.x[2] = Math::clamp(x[2], least_part, 1.0 - least_part);
+    for (int l = 0; l < 2; ++l)
+      cell.normal[l] = {Math::cos(x[l]), Math::sin(x[l])};
+    cell.open = cell.x[2] * void_volume;
+    double const rest = void_volume - cell.open;
+    Division const one = divide(polygon, cell.normal[0], volume + rest, cell.open, components.weight);
+    Division const two = divide(one.inside, cell.normal[1], volume, rest, components.weight);
+    Plane2 const line[2] = {one.line, two.line};
+    measure(two.inside, line, 2, cell);
+    return cell;
+  }
+};
+
+/// Least squares from a given start by Levenberg and Marquardt's steps, with differences for derivatives.
+/// \param hopeful An error that a search for an exact corner passes in its first ten steps; others end there.
+///
+/// Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431-441.
+KOKKOS_INLINE_FUNCTION CornerCell bestCornerCell(CornerProblem const &problem, CornerCell const &start, double hopeful)
+{
+  constexpr int n = CornerCell::unknowns, max_steps = 40, max_tries = 6, early_steps = 10;
+  constexpr double difference = 1e-7, longest_step = 0.3;
+  constexpr double exact = 1e-24;     // a first moment to 1e-12
+  constexpr double least_gain = 1e-3; // of the error
+  int const residuals = 2 + problem.count;
+  CornerCell best = start;
+  double damping = 1e-3;
+  bool gains = true;
+  for (int step = 0; step < max_steps && gains && best.error > exact && (step < early_steps || best.error <= hopeful);
+       ++step)
+  {
+    double jacobian[n][CornerCell::most_residuals], a[n][n], g[n]; // J^T J, -J^T r
+    for (int p = 0; p < n; ++p)
+    {
+      double x[n] = {best.x[0], best.x[1], best.x[2]};
+      double const d = p == 2 && x[2] > 0.5 ? -difference : difference;
+      x[p] += d;
+      CornerCell const near = problem.at(x);
+      for (int i = 0; i < residuals; ++i)
+        jacobian[p][i] = (near.residual[i] - best.residual[i]) / d;
+    }
+    for (int p = 0; p < n; ++p)
+    {
+      g[p] = 0.0;
+      for (int i = 0; i < residuals; ++i)
+        g[p] -= jacobian[p][i] * best.residual[i];
+      for (int q = 0; q < n; ++q)
+      {
+        a[p][q] = 0.0;
+        for (int i = 0; i < residuals; ++i)
+          a[p][q] += jacobian[p][i] * jacobian[q][i];
+      }
+    }
+    gains = false;
+    for (int tries = 0; tries < max_tries; ++tries)
+    {
+      double const shift = damping * (a[0][0] + a[1][1] + a[2][2]) / 3.0 + 1e-300;
+      double const m00 = a[0][0] + shift, m11 = a[1][1] + shift, m22 = a[2][2] + shift;
+      double const c00 = m11 * m22 - a[1][2] * a[1][2], c01 = a[0][2] * a[1][2] - a[0][1] * m22,
+                   c02 = a[0][1] * a[1][2] - m11 * a[0][2], c11 = m00 * m22 - a[0][2] * a[0][2],
+                   c12 = a[0][1] * a[0][2] - m00 * a[1][2], c22 = m00 * m11 - a[0][1] * a[0][1];
+      double const det = m00 * c00 + a[0][1] * c01 + a[0][2] * c02;
+      if (det > 0.0)
+      {
+        double const dx = Math::clamp((c00 * g[0] + c01 * g[1] + c02 * g[2]) / det, -longest_step, longest_step);
+        double const dy = Math::clamp((c01 * g[0] + c11 * g[1] + c12 * g[2]) / det, -longest_step, longest_step);
+        double const dz = Math::clamp((c02 * g[0] + c12 * g[1] + c22 * g[2]) / det, -longest_step, longest_step);
+        double const x[n] = {best.x[0] + dx, best.x[1] + dy, best.x[2] + dz};
+        CornerCell const next = problem.at(x);
+        if (next.error < best.error)
+        {
+          gains = next.error < (1.0 - least_gain) * best.error;
+          best = next;
+          damping *= 0.1;
+          break;
+        }
+      }
+      damping = Math::max(10.0 * damping, 1e-8);
+    }
+  }
+  return best;
+}
+
+/// Mean over the neighbours of (fraction behind a straight line between a body and void - fraction of the body)^2.
+KOKKOS_INLINE_FUNCTION double straightMisfit(ReconstructionField const &field, CellComponents const &components,
+                                             int body, Region const &polygon, Vector2 const &normal)
+{
+  CellNeighbours const neighbours(field, components);
+  FractionDifference const set{1u << body, 0u};
+  Detail::LineFitProblem problem{
+      neighbours, polygon, components.volume[body], components.volume[components.count - 1], set, true, {}};
+  problem.store(NeighbourValues(field, components, neighbours, set));
+  return Detail::lineMisfit(problem, normal).value;
+}
+
+/// The corner of a body in the polygon that it shares with void, where two lines are exact and one is not: an error of
+/// at most 1e-6 of that of the straight line. Elsewhere, as at curved surfaces, the error of what is returned is above.
+///
+/// Most cells are left after a look at the centroid, for a convex corner's lies farther out than the straight line's
+/// part, and at the neighbours: the line through a corner's cell misses theirs by a tenth of a cell.
+/// \param normal Of the straight line; leaves the body.
+KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
+                                                  int body, Region const &polygon, Plane2 const *rim,
+                                                  Vector2 const &normal)
+{
+  constexpr double misfit_weight = 0.1, least_miss = 1e-9, poor_misfit = 1e-2, near_exact = 1e-6, hopeful = 1e-3;
+  constexpr double quarter = 0.7853981633974483; // of pi
+  constexpr int starts = 5, most_searches = 3;
+  double const volume = components.volume[body], open = components.volume[components.count - 1];
+  double const smaller = Math::min(volume, open);
+  Division const straight = divide(polygon, normal, volume, open, components.weight);
+  Vector2 const miss = components.firstMiss(straight.inside, body);
+  if (!(norm(miss) > least_miss * smaller) || dot(miss, normal) > 0.0 ||
+      !(straightMisfit(field, components, body, polygon, normal) > poor_misfit))
+    return {};
+  CornerProblem const problem(field, components, body, polygon, rim, misfit_weight);
+  CornerCell one_line;
+  problem.measure(straight.inside, &straight.line, 1, one_line);
+  double const exact = near_exact * one_line.error, angle = Math::atan2(normal[1], normal[0]);
+  double const aside = 0.2 * smaller / open;
+  double const x[starts][CornerCell::unknowns] = {{angle - 1.0 * quarter, angle + 1.0 * quarter, 0.5},
+                                                  {angle - 1.6 * quarter, angle + 1.6 * quarter, 0.5},
+                                                  {angle - 0.4 * quarter, angle + 0.4 * quarter, 0.5},
+                                                  {angle, angle + 2.0 * quarter, 1.0 - aside},
+                                                  {angle, angle - 2.0 * quarter, 1.0 - aside}};
+  CornerCell start[starts];
+  for (int i = 0; i < starts; ++i)
+    start[i] = problem.at(x[i]);
+  CornerCell cell;
+  for (int tries = 0; tries < most_searches && !(cell.error <= exact); ++tries)
+  {
+    int best = 0;
+    for (int i = 1; i < starts; ++i)
+      best = start[i].error < start[best].error ? i : best;
+    cell = bestCornerCell(problem, start[best], hopeful * one_line.error);
+    start[best].error = 1e300;
+  }
+  if (!(cell.error <= exact))
+    cell.error = 1e300;
+  return cell;
+}
+
+/// Bodies and void, none a sliver, that the given plan does not leave as they are: where one body ends in a convex
+/// corner, alone or beyond another body that a straight line cuts off exactly, two lines between it and the void leave
+/// all as they are.
+KOKKOS_INLINE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, CellComponents const &components,
+                                              SliverBounds const &slivers, RemovalPlan const &given)
+{
+  constexpr double exact_miss = 1e-20; // squared, of the body that a straight line cuts off
+  int const bodies = components.count - 1;
+  if (bodies > 2 || components.material[bodies] != void_material || given.error <= removal_tie)
+    return given;
+  for (int k = 0; k < components.count; ++k)
+    if (components.volume[k] < slivers.of(components, k))
+      return given;
+  RemovalPlan plan = given;
+  plan.corner = true;
+  plan.parted = false;
+  for (int body = 0; body < bodies; ++body)
+  {
+    // Cuts of the given sequence are used again where they are the same.
+    auto const lastCut = [&](int i) { return given.component[i] == body ? given.normal[i] : -given.normal[i]; };
+    Region polygon = components.polygon;
+    Plane2 line;
+    Vector2 normal = given.normal[0];
+    if (bodies == 1)
+      normal = lastCut(0);
+    else
+    {
+      int const other = 1 - body;
+      bool const same = given.component[0] == other;
+      auto const cut = [&](ComponentSet inside, ComponentSet outside) {
+        return cutNormal(field, components, ReconstructionMethod::MomentOfFluid, slivers, polygon, inside, outside)
+            .normal;
+      };
+      Vector2 const first = same ? given.normal[0] : cut(1u << other, (1u << body) | (1u << bodies));
+      Division const division = divide(polygon, first, components.volume[other],
+                                       components.volume[body] + components.volume[bodies], components.weight);
+      if (momentError(components, slivers, division.inside, other, first) > exact_miss)
+        continue;
+      plan.set(0, other, first);
+      polygon = division.outside;
+      line = division.line;
+      normal = same ? lastCut(1) : cut(1u << body, 1u << bodies);
+    }
+    CornerCell const cell = exactCornerCell(field, components, body, polygon, bodies == 2 ? &line : nullptr, normal);
+    if (cell.error == 1e300)
+      continue;
+    plan.set(bodies - 1, body, cell.normal[0]);
+    plan.set(bodies, bodies, cell.normal[1]);
+    plan.void_part = cell.open;
+    plan.error = cell.error;
+    return plan;
+  }
+  return given;
+}
+
+} // namespace Harmos
+
+#endif

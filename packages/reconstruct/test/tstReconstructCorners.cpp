@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReconstructScene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace Harmos;
+using namespace Harmos::Testing;
+
+namespace
+{
+
+constexpr double sliver = 1e-6, film = 1e-3;
+
+double misplaced(Scene const &scene, std::vector<Body> const &all)
+{
+  ReconstructionOptions options;
+  options.sliver = sliver;
+  ReconstructionReport report;
+  FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
+  EXPECT_EQ(report.failures, 0);
+  EXPECT_EQ(report.unfinished_cells, 0);
+  return misplacedVolume(scene, regions, all);
+}
+
+/// Least part that a body fills of a mixed cell, and least part that is void, where there is some.
+void leastParts(Scene const &scene, double &body, double &open)
+{
+  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
+  auto const record = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.state.record);
+  body = open = 1.0;
+  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
+  {
+    double filled = 0.0;
+    for (int pair = offset(cell); pair < offset(cell + 1); ++pair)
+    {
+      filled += record(pair, VolumeFraction);
+      body = std::min(body, record(pair, VolumeFraction));
+    }
+    if (filled > 0.0 && filled < 1.0 - 1e-13)
+      open = std::min(open, 1.0 - filled);
+  }
+}
+
+//   \  /       A body ends in a convex corner of 40 to 140 degrees, alone or before a plane; either way, all over a
+//   cell.
+//    \/
+//  -------
+void expectExactCorners(Geometry geometry, bool with_plane)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int looked_at = 0, exact = 0;
+  double worst = 0.0;
+  for (int i = 0; i < 300; ++i)
+  {
+    bool const ring = geometry == Geometry::Axisymmetric;
+    double const left = ring && i % 2 == 0 ? 0.0 : 10.0;
+    Mesh const mesh = ring ? ringMesh(7, left, 0.1, i) : makeMesh(7, 7, 1.0 / 7.0, i % 2 == 0 ? 0.0 : 0.1, i);
+    Vector2 const corner{(ring ? left : 0.0) + (3.0 + unit(random)) / 7.0, (3.0 + unit(random)) / 7.0};
+    double const ahead = 360.0 * unit(random), half_angle = 20.0 + 50.0 * unit(random);
+    std::vector<Body> all{{halfPlane(ahead - 90.0 + half_angle, corner), halfPlane(ahead + 90.0 - half_angle, corner)}};
+    if (with_plane)
+    {
+      double const tilt = (unit(random) - 0.5) * (90.0 - half_angle), gap = 0.3 * unit(random) / 7.0;
+      Vector2 const normal = halfPlane(ahead + tilt, corner).normal;
+      all.push_back({halfPlane(ahead + tilt + 180.0, corner + gap * normal)});
+    }
+    Scene const scene = paint(mesh, bodies(all, geometry));
+    double body = 0.0, open = 0.0;
+    leastParts(scene, body, open);
+    if (body < 10.0 * sliver || open < film)
+      continue; // these go by their neighbours
+    ++looked_at;
+    double const wrong = misplaced(scene, all);
+    exact += wrong < 1e-7 ? 1 : 0;
+    EXPECT_LT(wrong, 2e-3) << ahead << " degrees, half an angle " << half_angle << ", corner " << corner[0] << ' '
+                           << corner[1];
+    worst = std::max(worst, wrong);
+  }
+  std::printf("%d of %d corners exact, misplaced volume at most %.1e\n", exact, looked_at, worst);
+  EXPECT_GT(looked_at, 150);
+  EXPECT_GE(exact, 0.98 * looked_at); // a search may end elsewhere
+}
+
+} // namespace
+
+TEST(ReconstructCorners, cornerInVoid_isExact)
+{
+  expectExactCorners(Geometry::Planar, false);
+}
+
+TEST(ReconstructCorners, cornerInVoidAboutAnAxis_isExact)
+{
+  expectExactCorners(Geometry::Axisymmetric, false);
+}
+
+TEST(ReconstructCorners, cornerBeforeAPlane_isExact)
+{
+  expectExactCorners(Geometry::Planar, true);
+}
+
+// A round body has no corner: each of its cells keeps one line, and the part that lies outside stays what it was.
+TEST(ReconstructCorners, roundBody_keepsStraightLines)
+{
+  Mesh const mesh = makeMesh(12, 12, 1.0 / 12.0);
+  for (double const radius : {0.2, 0.35})
+  {
+    Body round;
+    for (double degrees = 1.0; degrees < 360.0; degrees += 1.0)
+      round.push_back(halfPlane(degrees, Vector2{0.51, 0.47} + radius * halfPlane(degrees, {0.0, 0.0}).normal));
+    Scene const scene = paint(mesh, bodies({round}));
+    ReconstructionOptions options;
+    options.sliver = sliver;
+    ReconstructionReport report;
+    FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
+    auto const cut = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cut_component);
+    for (std::size_t i = 0; i < cut.extent(0); ++i)
+      EXPECT_GE(cut(i), 0);
+  }
+}
