@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Iterations of the multipliers' solver against their number: strips of 10 to 10,000 columns of cells.
+"""Iterations of the multipliers' solver against their number: strips of 10 to 10,000 columns of cells; and over more cycles.
 
 contact_iterations.py [--quick] [--output FOLDER]: writes contact-iterations.md.
 """
@@ -10,10 +10,12 @@ from math import sqrt
 from harness import ROOT, clean, harmos
 
 COLUMNS = [10, 100, 1000, 10000]
+SHORT, LONG = 20, 200  # cycles; the long runs up to LONG_COLUMNS
+LONG_COLUMNS = 1000
 
 
-def iterations_of_strip(columns, friction, solver):
-    """Mean and largest iterations of 20 cycles: two blocks meet along an interface that crosses a strip of so many columns of cells
+def iterations_of_strip(columns, friction, solver, placement="midpoint", cycles=SHORT):
+    """Mean and largest iterations of some cycles: two blocks meet along an interface that crosses a strip of so many columns of cells
     at a small slope, under one pressure, one of them sliding on the other. Multipliers; iterations; cycles that missed the tolerance."""
     slope = 2.3 / columns
     n = (-slope / sqrt(1.0 + slope * slope), 1.0 / sqrt(1.0 + slope * slope))
@@ -21,9 +23,9 @@ def iterations_of_strip(columns, friction, solver):
                          f"pressure: 0.001, velocity: [{sign * 1e-3 * n[1]!r}, {-sign * 1e-3 * n[0]!r}]}}")
     r = harmos(ROOT / "test/verification/decks/sliver.yaml", {
         "mesh/x": f"{{from: 0.0, to: {float(columns)!r}, cells: {columns}}}", "mesh/y": "{from: 0.0, to: 8.0, cells: 8}",
-        "bodies/left": half(1.0), "bodies/right": half(-1.0), "run/max_cycles": 20, "output/history/every_cycles": 1,
+        "bodies/left": half(1.0), "bodies/right": half(-1.0), "run/max_cycles": cycles, "output/history/every_cycles": 1,
         "interactions": "{default: friction, coefficient: 0.2}" if friction else "{default: sliding}",
-        "numerics/constraint/solver": solver}, expect=None)
+        "numerics/constraint/solver": solver, "numerics/constraint/placement": placement}, expect=None)
     assert r.status == 0, r.text
     found = {"multipliers": r.last("multipliers"), "mean": sum(r["iterations"][1:]) / len(r["iterations"][1:]), "most": max(r["iterations"]),
              "missed": r.summary["unconverged_cycles"]}
@@ -31,14 +33,19 @@ def iterations_of_strip(columns, friction, solver):
     return found
 
 
-def measure(columns, solver="projected newton"):
-    return [(friction, iterations_of_strip(n, friction, solver)) for friction in (False, True) for n in columns]
+def measure(columns, longest, solver="projected newton"):
+    """(placement, friction, cycles, what was found)"""
+    runs = [("midpoint", friction, SHORT, n) for friction in (False, True) for n in columns]
+    for placement in ("midpoint", "mortar") if longest > SHORT else ():
+        runs += [(placement, friction, longest, n) for friction in (False, True) for n in columns if n <= LONG_COLUMNS]
+    return [(placement, friction, cycles, iterations_of_strip(n, friction, solver, placement, cycles)) for placement, friction, cycles, n in runs]
 
 
 def table(found):
-    lines = ["| | multipliers | mean iterations | most | cycles that missed 1e-8 |", "| --- " * 5 + "|"]
-    for friction, f in found:
-        lines.append(f"| {'friction 0.2' if friction else 'sliding'} | {f['multipliers']:.0f} | {f['mean']:.1f} | {f['most']:.0f} | {f['missed']} |")
+    lines = ["| | cycles | multipliers | mean iterations | most | cycles that missed 1e-8 |", "| --- " * 6 + "|"]
+    for placement, friction, cycles, f in found:
+        name = ("friction 0.2" if friction else "sliding") + ("" if placement == "midpoint" else ", " + placement)
+        lines.append(f"| {name} | {cycles} | {f['multipliers']:.0f} | {f['mean']:.1f} | {f['most']:.0f} | {f['missed']} |")
     return "\n".join(lines) + "\n"
 
 
@@ -49,6 +56,6 @@ if __name__ == "__main__":
     arguments = parser.parse_args()
     folder = pathlib.Path(arguments.output)
     folder.mkdir(parents=True, exist_ok=True)
-    text = table(measure(COLUMNS[:2] if arguments.quick else COLUMNS))
+    text = table(measure(COLUMNS[:2] if arguments.quick else COLUMNS, SHORT if arguments.quick else LONG))
     (folder / "contact-iterations.md").write_text(text)
     print(text)
