@@ -2,6 +2,7 @@
 #ifndef HARMOS_PARTED_PLAN_HPP
 #define HARMOS_PARTED_PLAN_HPP
 
+#include <Harmos_FilmPlan.hpp>
 #include <Harmos_PartedCell.hpp>
 #include <Harmos_RemovalPlan.hpp>
 
@@ -195,13 +196,14 @@ KOKKOS_INLINE_FUNCTION bool mayBeFilm(CellComponents const &components, double s
 /// Void below `film_volume` is one of two things. The tip of a void that comes in from a neighbour, as when a body's
 /// corner slides over another body's face: its centroid says where it is, while least squares, which see straight
 /// bodies, lay it between them as a film. Or a film between two bodies that touch: its centroid is what the errors of
-/// theirs leave, and where it lies along the film turns the line; least squares keep it still.
+/// theirs leave, and where it lies along the film turns the line; least squares keep it still. Or both (see
+/// filmPlan).
 ///
 /// So where a neighbour is open the cell, cut by least squares (the given plan), is cut once more by void's centroid.
-/// That counts where it leaves no first moment off by more than a tenth of the void's volume. Not tried where the
-/// bodies miss 30 times that volume already: at a curved interface.
-KOKKOS_INLINE_FUNCTION RemovalPlan planForVoidTip(ReconstructionField const &field, CellComponents const &components,
-                                                  double sliver, RemovalPlan const &plan)
+/// That counts where it leaves no first moment off by more than a tenth of the void's volume. Nothing is tried where
+/// the bodies miss 30 times that volume already: at a curved interface.
+KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &field, CellComponents const &components,
+                                                   double sliver, RemovalPlan const &plan)
 {
   constexpr double open_volume = 1e-2;                 // void of a neighbour, of the cell
   constexpr double least_miss = 0.1, most_miss = 30.0; // of the void's volume
@@ -213,7 +215,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan planForVoidTip(ReconstructionField const &fie
   double most_open = 0.0;
   for (int n = neighbours.offset(components.cell); n < neighbours.offset(components.cell + 1); ++n)
     most_open = Math::max(most_open, setFraction(field, components, 1u << last, neighbours.item(n)));
-  if (most_open < open_volume)
+  bool const may_be_tip = most_open >= open_volume;
+  if (!may_be_tip && components.count != 4)
     return plan;
   SliverBounds const films{sliver, film_volume}, tips{sliver, sliver};
   double error = 0.0;
@@ -222,8 +225,13 @@ KOKKOS_INLINE_FUNCTION RemovalPlan planForVoidTip(ReconstructionField const &fie
               { error += momentError(components, films, part, k, normal); });
   if (error > most_miss * most_miss * volume * volume)
     return plan;
-  RemovalPlan const tip = partedPlan(field, components, tips, bestPlan(field, components, tips));
-  return tip.error <= least_miss * least_miss * volume * volume && tip.error < plan.error ? tip : plan;
+  if (may_be_tip)
+  {
+    RemovalPlan const tip = partedPlan(field, components, tips, bestPlan(field, components, tips));
+    if (tip.error <= least_miss * least_miss * volume * volume && tip.error < plan.error)
+      return tip;
+  }
+  return filmPlan(components, films, plan, error);
 }
 
 } // namespace Harmos

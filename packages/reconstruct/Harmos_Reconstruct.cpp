@@ -10,7 +10,6 @@ namespace Harmos
 namespace
 {
 
-constexpr int max_exhaustive_components = 5;
 constexpr double volume_tolerance = 1e-13; // of the cell
 
 struct CellStatus
@@ -59,7 +58,7 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
   if (corner.corner)
     return corner;
   RemovalPlan const plan = partedPlan(field, components, slivers, sequence);
-  return planForVoidTip(field, components, options.sliver, plan);
+  return planForThinVoid(field, components, options.sliver, plan);
 }
 
 /// The plan that a cell was cut by; without components where there is none for those that it has now.
@@ -148,6 +147,14 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
     Division const one =
         divide(polygon, plan.normal[num_pairs - 1], components.volume[body] + rest, plan.void_part, components.weight);
     write(divide(one.inside, plan.normal[num_pairs], components.volume[body], rest, components.weight).inside, body);
+    forgetCuts();
+    return status;
+  }
+  if (plan.filmed)
+  {
+    FilmedCell const cell = filmedCell(components, plan, plan.void_part);
+    for (int k = 0; k < num_pairs; ++k)
+      write(cell.region[k], k);
     forgetCuts();
     return status;
   }

@@ -10,10 +10,14 @@
 namespace Harmos
 {
 
+constexpr int max_exhaustive_components = 5; // more are cut off greedily
+
 /// In which order a cell's components are cut off, and with which normals; the last one keeps the remainder. Or the
 /// cell is parted: normal[0] leaves the part that component 0 shares with void_part of the void, normal[1] and
 /// normal[2] leave components 0 and 1 in their parts. Or the last body that is left has a corner: of the polygon that
-/// it shares with void the last two normals, which leave the body, cut off void_part and then the rest of the void.
+/// it shares with void the last two normals, which leave the body, cut off void_part and then the rest of the void. Or
+/// void is in two places: void_part of it where the plan has it, the rest between the last two bodies, along their
+/// line.
 struct RemovalPlan
 {
   int count = 0;
@@ -21,7 +25,7 @@ struct RemovalPlan
   Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
   double error = 0.0;             // the measure that orders are compared by
   int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
-  bool parted = false, corner = false;
+  bool parted = false, corner = false, filmed = false;
   double void_part = 0.0; // of the cell
 
   KOKKOS_INLINE_FUNCTION void set(int i, int which, Vector2 const &its_normal)
@@ -37,7 +41,7 @@ constexpr double removal_tie = 1e-20;  // orders whose errors differ by less are
 
 /// Volumes, of the cell, below which a component is a sliver: its line comes from least squares over the neighbours.
 /// The remap carries a body's own centroid; that of void is what the bodies' errors leave, and needs more volume to
-/// mean something (see planForVoidTip).
+/// mean something (see planForThinVoid).
 struct SliverBounds
 {
   double of_body, of_void;
@@ -207,7 +211,7 @@ KOKKOS_INLINE_FUNCTION double leastSliverPenalty(ReconstructionField const &fiel
 KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, CellComponents const &components,
                                             SliverBounds const &slivers)
 {
-  constexpr int max_count = 5;
+  constexpr int max_count = max_exhaustive_components;
   Region polygon[max_count];
   ComponentSet rest[max_count];
   int candidate[max_count];
