@@ -24,7 +24,8 @@ struct CornerCell
 ///
 /// over both angles and the first line's part of the void. x: centroid of what the lines leave of the polygon, whose
 /// volume is V throughout; g_j: part of neighbour j behind both lines, and beyond the rim where there is one; f_j: the
-/// body's fraction there. Three parameters meet two coordinates of a centroid: it is the neighbours that tell a corner.
+/// body's fraction there. Three parameters meet two coordinates of a centroid: it is the neighbours that tell a corner
+/// (see isTold).
 struct CornerProblem
 {
   static constexpr int most_neighbours = CornerCell::most_residuals - 2;
@@ -55,6 +56,17 @@ struct CornerProblem
       quad_volume[j] = Harmos::volume(quad[j], components.weight);
       fraction[j] = setFraction(field, components, 1u << body, cell);
     }
+  }
+
+  /// Whether some neighbour tells where an edge goes on: one that the body fills in part. A fragment within its cell
+  /// has none, and one parameter would be free.
+  KOKKOS_INLINE_FUNCTION bool isTold() const
+  {
+    constexpr double least_fraction = 1e-9;
+    bool told = false;
+    for (int j = 0; j < count; ++j)
+      told = told || (fraction[j] > least_fraction && fraction[j] < 1.0 - least_fraction);
+    return told;
   }
 
   /// Part of neighbour j behind all lines.
@@ -224,6 +236,8 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
       !(straightMisfit(field, components, body, polygon, normal) > poor_misfit))
     return {};
   CornerProblem const problem(field, components, body, polygon, rim, misfit_weight);
+  if (!problem.isTold())
+    return {};
   CornerCell one_line;
   problem.measure(straight.inside, &straight.line, 1, one_line);
   double const exact = near_exact * one_line.error, angle = Math::atan2(normal[1], normal[0]);
@@ -279,9 +293,12 @@ KOKKOS_INLINE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, 
     {
       int const other = 1 - body;
       bool const same = given.component[0] == other;
-      auto const cut = [&](ComponentSet inside, ComponentSet outside) {
-        return cutNormal(field, components, ReconstructionMethod::MomentOfFluid, slivers, polygon, inside, outside)
-            .normal;
+      auto const cut = [&](ComponentSet inside, ComponentSet outside)
+      {
+        CutNormal const found =
+            cutNormal(field, components, ReconstructionMethod::MomentOfFluid, slivers, polygon, inside, outside);
+        plan.unfinished += found.converged ? 0 : 1;
+        return found.normal;
       };
       Vector2 const first = same ? given.normal[0] : cut(1u << other, (1u << body) | (1u << bodies));
       Division const division = divide(polygon, first, components.volume[other],

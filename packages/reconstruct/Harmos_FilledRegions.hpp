@@ -11,7 +11,7 @@ namespace Harmos
 ///
 /// They were cut off the cell one component after the other. A cell of n pairs has n - 1 cuts, or n with void: entry i
 /// tells which component the i-th took and its normal; an n-th that is none has the normal zero.
-/// Cells that were parted, not cut in sequence, have -1 for components.
+/// Cells that were not cut in sequence (parted, corners, films) have -1 for components.
 struct FilledRegions
 {
   int num_mixed_cells = 0;

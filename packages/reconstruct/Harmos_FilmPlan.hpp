@@ -81,10 +81,11 @@ KOKKOS_INLINE_FUNCTION void placeFilms(CellComponents const &components, Removal
   plan.component[count - 1] = a + b - smaller;
   for (int pass = 0; pass < passes; ++pass)
   {
-    plan.normal[count - 2] =
+    MomentOfFluidLine const line =
         momentOfFluidLine(beforeLastTwo(components, plan, plan.void_part), components.volume[smaller],
-                          components.centroid[smaller], components.weight)
-            .normal;
+                          components.centroid[smaller], components.weight);
+    plan.normal[count - 2] = line.normal;
+    plan.unfinished += line.converged ? 0 : 1;
     FilmedCell const none = filmedCell(components, plan, all), whole = filmedCell(components, plan, 0.0);
     double along = 0.0, squared = 0.0;
     for (int k = 0; k < open; ++k)

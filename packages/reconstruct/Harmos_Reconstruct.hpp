@@ -44,8 +44,8 @@ FilledRegions reconstruct(Mesh const &mesh, CellMaterialPairs const &pairs, Pair
 
 /// The same for fractions that have changed within the cells since `before`, on the same pairs: the cuts keep their
 /// order and their normals and move along them until the volumes are met. What turns them, the centroids, has not
-/// changed. Cells that were not mixed or are parted, and those whose void has come or gone, are
-/// reconstructed.
+/// changed. Cells that were not mixed or are no sequence of cuts (parted, corners, films), and those whose void has
+/// come or gone, are reconstructed.
 FilledRegions refill(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                      FilledRegions const &before, ReconstructionOptions const &options, ReconstructionReport &report);
 

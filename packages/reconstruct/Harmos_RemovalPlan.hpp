@@ -138,7 +138,7 @@ KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, Sliv
   return dot(first, first);
 }
 
-/// visit(part, k, normal of the line that cuts it off) for the components of a plan that is not parted, first removed
+/// visit(part, k, normal of the line that cuts it off) for the components of a plan that is a sequence, first removed
 /// first.
 template <class Visit>
 KOKKOS_INLINE_FUNCTION void forEachPart(CellComponents const &components, RemovalPlan const &plan, Visit const &visit)

@@ -44,10 +44,7 @@ void leastParts(Scene const &scene, double &body, double &open)
   }
 }
 
-//   \  /       A body ends in a convex corner of 40 to 140 degrees, alone or before a plane; either way, all over a
-//   cell.
-//    \/
-//  -------
+/// A body that ends in a convex corner of 40 to 140 degrees, alone or before a plane, anywhere in a cell.
 void expectExactCorners(Geometry geometry, bool with_plane)
 {
   std::mt19937 random(7);
@@ -119,5 +116,25 @@ TEST(ReconstructCorners, roundBody_keepsStraightLines)
     auto const cut = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cut_component);
     for (std::size_t i = 0; i < cut.extent(0); ++i)
       EXPECT_GE(cut(i), 0);
+  }
+}
+
+// A fragment within its cell: no neighbour tells how its edges go on, so that one line bounds it.
+TEST(ReconstructCorners, fragmentOnAPlane_keepsAStraightLine)
+{
+  Mesh const mesh = makeMesh(7, 7, 1.0);
+  Vector2 const tip{3.5, 3.6}, plane{3.0, 3.3};
+  for (double const steep : {20.0, 40.0})
+  {
+    std::vector<Body> const all{{halfPlane(270.0, plane), halfPlane(steep, tip), halfPlane(180.0 - steep, tip)},
+                                {halfPlane(90.0, plane)}};
+    Scene const scene = paint(mesh, bodies(all));
+    ReconstructionOptions options;
+    options.sliver = sliver;
+    ReconstructionReport report;
+    FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
+    auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
+    auto const cut = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cut_component);
+    EXPECT_GE(cut(first(3 * 7 + 3)), 0);
   }
 }
