@@ -2,7 +2,9 @@
 """Run decks with the harmos program and read what it leaves. Used by every verification test.
 
 A test is a Python file of functions named test_*; run(globals()) calls them all and exits non-zero if one fails.
+What runs leave lies in a folder of the script's (scratch_folder), which goes at the end unless something failed.
 """
+import atexit
 import csv
 import json
 import os
@@ -11,12 +13,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import traceback
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "example"
 HARMOS = os.environ.get("HARMOS", str(ROOT / "build/native/src/harmos"))
+SCRATCH = {"lock": threading.Lock(), "folder": None, "failed": False}  # the script's own folder, made when first needed
 
 
 class Run:
@@ -59,13 +63,33 @@ def read_columns(path):
     return columns
 
 
+def scratch_folder():
+    """A new empty folder (pathlib.Path) in the script's own, which is removed at the script's end.
+
+    It stays, and its path is printed, when a test failed or the script ended by an exception. What is put beside the
+    folder returned goes with it.
+    """
+    with SCRATCH["lock"]:
+        if SCRATCH["folder"] is None:
+            SCRATCH["folder"] = tempfile.mkdtemp(prefix=f"harmos-{pathlib.Path(sys.argv[0]).stem}-")
+            atexit.register(leave_scratch)
+    return pathlib.Path(tempfile.mkdtemp(dir=SCRATCH["folder"]))
+
+
+def leave_scratch():
+    if SCRATCH["failed"] or hasattr(sys, "last_type"):  # the latter: an exception that nobody caught
+        print(f"results are kept in {SCRATCH['folder']}")
+    else:
+        shutil.rmtree(SCRATCH["folder"])
+
+
 def launcher(ranks):
     return ["mpiexec", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] if ranks > 1 else []
 
 
 def harmos(deck, settings=None, ranks=1, directory=None, extra=(), expect=0):
     """Run a deck (path under example/) with overrides {'path/to/key': value}; assert its exit status."""
-    directory = directory or tempfile.mkdtemp(prefix="harmos-")
+    directory = directory or scratch_folder()
     command = [HARMOS, "run", str(EXAMPLE / deck), "--output", str(directory), "--force"]
     for key, value in (settings or {}).items():
         command += ["--set", f"{key}={value}"]
@@ -108,6 +132,7 @@ def run(names):
         print("no test ran")
         sys.exit(1)
     if failed:
+        SCRATCH["failed"] = True
         print("failed: " + ", ".join(failed))
         sys.exit(1)
 

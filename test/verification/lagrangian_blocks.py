@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Body-fitted meshes: blocks with arcs and grading, Gmsh files, what they refuse, and a run that says where it folds."""
-import pathlib
-import tempfile
 from math import cos, pi, sin
 
-from harness import check, clean, harmos, run
+from harness import check, clean, harmos, run, scratch_folder
 from shocks import surface_radii
 
 DECK = "verney/lagrangian.yaml"
@@ -52,7 +50,7 @@ def ring(version):
 
 
 def from_file(text, settings, expect=0):
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="harmos-mesh-"))
+    folder = scratch_folder()
     (folder / "shell.msh").write_text(text)
     return harmos(DECK, {**settings, "mesh/file": folder / "shell.msh", "bodies/shell": PART}, expect=expect)
 

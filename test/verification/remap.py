@@ -4,15 +4,14 @@
 Peer: Portage on the same meshes, fields and steps (Barth & Jespersen's limiter, intersection).
 """
 import subprocess
-import tempfile
 
-from harness import EXAMPLE, HARMOS, check, read_columns, run
+from harness import EXAMPLE, HARMOS, check, read_columns, run, scratch_folder
 
 
 def remap(deck="deck.yaml", ranks=1, expect=0, **settings):
     """Columns of remap.csv; settings are keys of the deck."""
-    directory = tempfile.mkdtemp(prefix="harmos-")
-    command = [HARMOS, "remap", str(EXAMPLE / "remap" / deck), "--output", directory, "--force"]
+    directory = scratch_folder()
+    command = [HARMOS, "remap", str(EXAMPLE / "remap" / deck), "--output", str(directory), "--force"]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
     if ranks > 1:
@@ -20,7 +19,7 @@ def remap(deck="deck.yaml", ranks=1, expect=0, **settings):
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != expect:
         raise AssertionError(f"exit status {done.returncode}, expected {expect}:\n{done.stdout[-2000:]}")
-    return read_columns(directory + "/remap.csv") if expect == 0 else done.stdout
+    return read_columns(directory / "remap.csv") if expect == 0 else done.stdout
 
 
 def conserves_within_range(what, r):

@@ -7,11 +7,10 @@ stability_atlas.py [--quick] [--jobs N] [--output FOLDER]: writes stability-atla
 import argparse
 import concurrent.futures
 import pathlib
-import tempfile
 from math import cos, exp, radians, sin, sqrt
 
 import contact_iterations
-from harness import ROOT, clean, harmos, read_columns
+from harness import ROOT, clean, harmos, read_columns, scratch_folder
 from sliding_block import SQUEEZE, momentum_error, settings as sliding
 
 CONSTRAINT = "numerics/constraint"
@@ -342,8 +341,9 @@ if __name__ == "__main__":
     parser.add_argument("--output", default=str(ROOT / "results/stability_atlas"))
     parser.add_argument("--jobs", type=int, default=2, help="methods at a time")
     arguments = parser.parse_args()
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="harmos-atlas-") if arguments.quick else arguments.output)
+    folder = scratch_folder() if arguments.quick else pathlib.Path(arguments.output)
     folder.mkdir(parents=True, exist_ok=True)
     found = measure(arguments.quick, arguments.jobs)
     write(found, further_sections(arguments.quick, list(found), folder), folder)
-    print("written to", folder)
+    if not arguments.quick:
+        print("written to", folder)

@@ -2,15 +2,12 @@
 """Whipple shields about the axis: below the ballistic limit against the body-fitted run, above it against what is
 conserved.
 """
-import pathlib
-import shutil
 import subprocess
 import sys
-import tempfile
 
 import numpy
 
-from harness import EXAMPLE, HARMOS, check, clean, harmos, run
+from harness import EXAMPLE, HARMOS, check, clean, harmos, run, scratch_folder
 
 sys.path.insert(0, str(EXAMPLE / "whipple_high"))
 sys.path.insert(0, str(EXAMPLE / "whipple_batch"))
@@ -25,7 +22,7 @@ def position(r, column, time):
 
 
 def test_fronts_of_a_slow_impact_are_those_of_the_body_fitted_run():
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="harmos-"))
+    folder = scratch_folder()
     coarse = {"mesh/x/cells": 48, "mesh/y/cells": 80, **QUIET}  # 4 cells through the bumper
     sphere = subprocess.run([sys.executable, EXAMPLE / "whipple_low/make_sphere.py", "3.175e-3", "-3.175e-3", "6"],
                             check=True, stdout=subprocess.PIPE, text=True).stdout
@@ -75,16 +72,15 @@ def test_ballistic_limit_is_christiansen_s():
 
 
 def test_a_batch_runs_a_shot_once_and_finds_a_foil_perforated():
-    folder = tempfile.mkdtemp(prefix="harmos-")
+    folder = scratch_folder()
     command = [sys.executable, EXAMPLE / "whipple_batch/batch.py", "--harmos", HARMOS, "--results", folder, "--cells", "4",
                "--shots", "CR-54201_91"]
     first, again = (subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout for _ in range(2))
     print("  " + first.splitlines()[1])
-    assert first == again and len(list(pathlib.Path(folder).glob("*/run/history.csv"))) == 1
+    assert first == again and len(list(folder.glob("*/run/history.csv"))) == 1
     assert "harmos: 1 of 1 as in the experiment" in first
     unknown = subprocess.run(command[:-1] + ["NOBODY_1"], check=False, stderr=subprocess.PIPE, text=True)
     assert unknown.returncode != 0 and "NOBODY_1" in unknown.stderr
-    shutil.rmtree(folder)
 
 
 if __name__ == "__main__":
