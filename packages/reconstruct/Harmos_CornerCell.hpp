@@ -247,10 +247,14 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
                                                   {angle - 0.4 * quarter, angle + 0.4 * quarter, 0.5},
                                                   {angle, angle + 2.0 * quarter, 1.0 - aside},
                                                   {angle, angle - 2.0 * quarter, 1.0 - aside}};
+  // A plate thinner than a cell has two parallel faces: the straight line's part, shifted to the centroid.
+  double const strip[CornerCell::unknowns] = {angle, angle + 4.0 * quarter, 1.0 + dot(miss, normal) / open};
+  CornerCell cell = problem.at(strip);
+  if (cell.error <= hopeful * one_line.error)
+    cell = bestCornerCell(problem, cell, hopeful * one_line.error);
   CornerCell start[starts];
-  for (int i = 0; i < starts; ++i)
+  for (int i = 0; i < starts && !(cell.error <= exact); ++i)
     start[i] = problem.at(x[i]);
-  CornerCell cell;
   for (int tries = 0; tries < most_searches && !(cell.error <= exact); ++tries)
   {
     int best = 0;
