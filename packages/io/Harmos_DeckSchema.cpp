@@ -218,8 +218,10 @@ void addNumerics(ParameterList &list)
       "interface normals. moment of fluid: from centroids; least squares: the line that gives the neighbours their "
       "volume fractions best (LVIRA); youngs: gradient of the volume fraction");
   add(r.sublist("method = moment of fluid"), "sliver", reconstruction.sliver, number(between(0.0, 0.5)),
-      "below this volume fraction normals come from least squares; where it is less than 1e-3, void below that goes "
-      "by least squares too, unless it is a tip of a void beyond");
+      "below this volume fraction normals come from least squares; where it is less than 1e-3, void below that and "
+      "bodies that fill less than a tenth of every neighbour go by least squares too, void unless it is a tip of a "
+      "void "
+      "beyond");
   add(r, "removal_order", Teuchos::Array<std::string>(), rulesOf(KeyType::Names),
       "fixed order in which materials leave a mixed cell: every field once, by its first body, and void (last when "
       "not named). Empty: chosen by the method");

@@ -116,7 +116,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan filmPlan(CellComponents const &components, Sl
   if (components.count != 4 || given.parted || given.component[1] != open || error <= removal_tie)
     return given;
   for (int k = 0; k < open; ++k)
-    if (components.volume[k] < slivers.of_body)
+    if (components.volume[k] < slivers.of(components, k))
       return given;
   RemovalPlan plan = given;
   plan.set(1, open, given.normal[0]);

@@ -10,7 +10,6 @@ namespace Harmos
 {
 
 constexpr double parting_misfit = 0.1; // of the smaller body's volume times the parting line's misfit
-constexpr double film_volume = 1e-3;   // of the cell: void below may be a film between two bodies
 
 /// The parting line that cutting body 0, body 1 or the void off first would draw, the own lines placed anew.
 KOKKOS_INLINE_FUNCTION PartedCell partedAsOrder(PartingProblem const &problem, SliverBounds const &slivers, int first)
@@ -203,13 +202,13 @@ KOKKOS_INLINE_FUNCTION bool mayBeFilm(CellComponents const &components, double s
 /// That counts where it leaves no first moment off by more than a tenth of the void's volume. Nothing is tried where
 /// the bodies miss 30 times that volume already: at a curved interface.
 KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &field, CellComponents const &components,
-                                                   double sliver, RemovalPlan const &plan)
+                                                   SliverBounds const &films, RemovalPlan const &plan)
 {
   constexpr double open_volume = 1e-2;                 // void of a neighbour, of the cell
   constexpr double least_miss = 0.1, most_miss = 30.0; // of the void's volume
   int const last = components.count - 1;
   double const volume = components.volume[last];
-  if (!mayBeFilm(components, sliver) || plan.error <= removal_tie)
+  if (!mayBeFilm(components, films.of_body) || plan.error <= removal_tie)
     return plan;
   Rows const &neighbours = field.mesh.cell_neighbour;
   double most_open = 0.0;
@@ -218,7 +217,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &fi
   bool const may_be_tip = most_open >= open_volume;
   if (!may_be_tip && components.count != 4)
     return plan;
-  SliverBounds const films{sliver, film_volume}, tips{sliver, sliver};
+  SliverBounds tips = films;
+  tips.of_void = films.of_body;
   double error = 0.0;
   forEachPart(components, plan,
               [&](Region const &part, int k, Vector2 const &normal)

@@ -40,7 +40,7 @@ KOKKOS_FUNCTION void givenOrder(CellComponents const &components, View<int *> co
 KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellComponents const &components,
                                         ReconstructionOptions const &options)
 {
-  SliverBounds const slivers{options.sliver, Math::max(options.sliver, film_volume)};
+  SliverBounds const slivers = sliverBounds(field, components, options.sliver);
   if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0 ||
       (components.count <= 2 && !mayBeFilm(components, options.sliver)))
   {
@@ -58,7 +58,7 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
   if (corner.corner)
     return corner;
   RemovalPlan const plan = partedPlan(field, components, slivers, sequence);
-  return planForThinVoid(field, components, options.sliver, plan);
+  return planForThinVoid(field, components, slivers, plan);
 }
 
 /// The plan that a cell was cut by; without components where there is none for those that it has now.

@@ -18,7 +18,8 @@ struct ReconstructionOptions
   ReconstructionMethod method = ReconstructionMethod::MomentOfFluid;
   /// Below this volume fraction the line's normal comes from least squares over the neighbours: centroids of slivers
   /// are noise. Below 1e-3: void under that goes by least squares still, unless it is the tip of a void beyond
-  /// (planForThinVoid), and exact cells of two passing corners are looked for everywhere (partedPlan).
+  /// (planForThinVoid), as do fragments of bodies (sliverBounds), and exact cells of two passing corners are looked for
+  /// everywhere (partedPlan).
   double sliver = 1e-6;
   /// Fixed order of removal: material numbers, first removed first; void, written -1, is last when not listed.
   /// Extent 0: all orders are tried by least centroid error (moment-of-fluid), or ascending material number (Youngs).

@@ -38,26 +38,58 @@ struct RemovalPlan
 constexpr double sliver_penalty = 0.1; // of its volume times its line's misfit
 constexpr double thin_volume = 1e-3;   // of the cell: a line that cuts it off passes near the cell's border
 constexpr double removal_tie = 1e-20;  // orders whose errors differ by less are as good
+constexpr double film_volume = 1e-3;   // of the cell: void below may be a film between two bodies
 
 /// Volumes, of the cell, below which a component is a sliver: its line comes from least squares over the neighbours.
 /// The remap carries a body's own centroid; that of void is what the bodies' errors leave, and needs more volume to
-/// mean something (see planForThinVoid).
+/// mean something (see planForThinVoid). A fragment's needs more as well (see sliverBounds).
 struct SliverBounds
 {
   double of_body, of_void;
+  double of_fragment = film_volume;
+  ComponentSet fragments = 0u; // bodies
 
   KOKKOS_INLINE_FUNCTION double of(CellComponents const &components, int k) const
   {
+    if (components.holds(fragments, k))
+      return of_fragment;
     return components.material[k] == void_material ? of_void : of_body;
   }
 
   /// Of several components together: that of a body.
   KOKKOS_INLINE_FUNCTION double ofSet(CellComponents const &components, ComponentSet set) const
   {
-    int const last = components.count - 1;
-    return set == 1u << last ? of(components, last) : of_body;
+    for (int k = 0; k < components.count; ++k)
+      if (set == 1u << k)
+        return of(components, k);
+    return of_body;
   }
 };
+
+/// The bounds in a cell, `sliver` (of the cell) for bodies that are no fragments.
+///
+/// A body that fills less than `film_volume` here and less than a tenth of every neighbour is a fragment, or a thread
+/// thinner than a cell, and no tip of a body beyond. Placed by its centroid, the end of a thread was a speck that found
+/// its way through other bodies, and the thread after it; least squares lay it along the face that it meets.
+KOKKOS_INLINE_FUNCTION SliverBounds sliverBounds(ReconstructionField const &field, CellComponents const &components,
+                                                 double sliver)
+{
+  constexpr double thick = 0.1; // fraction of a neighbour
+  double const large = Math::max(sliver, film_volume);
+  SliverBounds bounds{sliver, large, large};
+  Rows const &neighbours = field.mesh.cell_neighbour;
+  for (int k = 0; k < components.count; ++k)
+  {
+    if (components.material[k] == void_material || components.volume[k] < sliver || components.volume[k] >= large)
+      continue;
+    double most = 0.0;
+    for (int n = neighbours.offset(components.cell); n < neighbours.offset(components.cell + 1) && most < thick; ++n)
+      most = setFraction(field, components, 1u << k, neighbours.item(n));
+    if (most < thick)
+      bounds.fragments |= 1u << k;
+  }
+  return bounds;
+}
 
 /// Normal of the line that divides a polygon into two sets of components.
 struct CutNormal

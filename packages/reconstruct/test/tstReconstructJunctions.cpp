@@ -312,3 +312,32 @@ TEST(ReconstructJunctions, thinVoidsAtAT_lieWhereTheyAre)
       }
   std::printf("misplaced volume over the gaps: at most %.1e\n", worst);
 }
+
+// What fills less than a tenth of a cell all around is a thread or a fragment, no tip of a body beyond: its end lies
+// along the face that it meets, that of a block where it is.
+//
+//   |  1  |  1  |
+//   |-----|#----|    #: end of body 0, below 1e-3 of the cell
+//   |     |#    |
+TEST(ReconstructJunctions, endOfAThread_liesAlongTheFaceThatItMeets)
+{
+  Mesh const mesh = makeMesh(7, 7, 1.0);
+  double const right = 3.42;
+  for (double const width : {0.02, 0.05, 2.0})
+    for (double const into : {1e-3, 2e-3})
+    {
+      double const face = 3.0 + into;
+      std::vector<Body> const all{
+          {halfPlane(90.0, {0.0, face}), halfPlane(0.0, {right, 0.0}), halfPlane(180.0, {right - width, 0.0})},
+          {halfPlane(270.0, {0.0, face})}};
+      FilledRegions const regions = momentOfFluid(paint(mesh, bodies(all)), 1e-6);
+      auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
+      auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
+      Region const &end = polygon(first(3 * 7 + 3));
+      ASSERT_FALSE(end.empty());
+      double reach = 0.0;
+      for (int v = 0; v < end.size; ++v)
+        reach = std::max(reach, end[v][0] - 3.0);
+      EXPECT_NEAR(reach, width < 1.0 ? 1.0 : right - 3.0, 1e-6) << "width " << width << ", into the cell " << into;
+    }
+}
