@@ -60,30 +60,6 @@ std::vector<int> orderRows(BlockPattern const &m)
   return reverseCuthillMcKee(offset, item);
 }
 
-struct MatrixEntry
-{
-  int row, column;
-  double value;
-};
-
-LowerTriangle byRows(std::vector<MatrixEntry> const &entry, std::size_t size)
-{
-  LowerTriangle matrix;
-  matrix.offset.assign(size + 1, 0);
-  for (MatrixEntry const &x : entry)
-    ++matrix.offset[x.row + 1];
-  std::partial_sum(matrix.offset.begin(), matrix.offset.end(), matrix.offset.begin());
-  std::vector<int> next(matrix.offset.begin(), matrix.offset.end() - 1);
-  matrix.column.resize(entry.size());
-  matrix.value.resize(entry.size());
-  for (MatrixEntry const &x : entry)
-  {
-    matrix.column[next[x.row]] = x.column;
-    matrix.value[next[x.row]++] = x.value;
-  }
-  return matrix;
-}
-
 /// Scaled entries of the matrix, each in the row of its later unknown.
 LowerTriangle scalarMatrix(BlockPattern const &m, DualRows const &rows, std::vector<int> const &first,
                            std::vector<double> const &root)

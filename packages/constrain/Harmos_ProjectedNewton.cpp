@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_InteriorPoint.hpp>
 #include <Harmos_ProjectedNewton.hpp>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ class Newton
 {
 public:
   Newton(DualProblem const &problem, double enough, int max_iterations)
-      : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), x_(n_, 0.0),
-        g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace()))
+      : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), system_(problem),
+        x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace()))
   {
     constexpr double none = 1.0e300;
     bounds_.reserve(n_);
@@ -39,6 +40,10 @@ public:
     if (!start.empty())
       beginAt(start);
     exchangeActiveSets();
+    if (!reached())
+      followInterior();
+    if (!reached())
+      exchangeActiveSets(true);
     while (iterations_ < max_iterations_)
     {
       moveReach();
@@ -117,6 +122,42 @@ private:
     current_ = true;
   }
 
+  /// Impulses with friction's bounds as they are by them.
+  void begin(Vector const &x)
+  {
+    x_ = x;
+    current_ = false;
+    for (int i = 0; i < n_; ++i)
+      if (rubs(i))
+      {
+        double const reach = problem_.friction[i] * x[problem_.normal_of[i]];
+        bounds_[i] = {-reach, reach};
+      }
+    updateGradient();
+  }
+
+  bool reached()
+  {
+    moveReach();
+    updateGradient();
+    return violation() <= enough_;
+  }
+
+  /// Where whole sets change places for ever: a path inside the bounds, and sets once more from its end. Friction that
+  /// couples strongly may leave it farther off than the sets had been.
+  void followInterior()
+  {
+    constexpr int most = 60;
+    Vector const before = x_;
+    double const least = violation();
+    InteriorPoint interior(problem_, system_);
+    iterations_ += interior.solve(enough_, std::min(most, max_iterations_ - iterations_));
+    begin(interior.impulses());
+    exchangeActiveSets();
+    if (!reached() && violation() > least)
+      begin(before);
+  }
+
   void setShift(double factor, double reached)
   {
     start_ = start_ > 0.0 ? start_ : reached;
@@ -126,10 +167,13 @@ private:
   /// Primal-dual active sets: an unknown is free where x - g lies between its bounds, else at the bound beyond which it
   /// lies; a Newton step of the free ones may leave their bounds, which the next sets mend. Whole sets change at once,
   /// so that places far from each other settle together; the residual may grow on the way. What was best is kept, and
-  /// left to the steps that descend where a few sets do not halve it.
-  void exchangeActiveSets()
+  /// left to other steps where a few sets do not halve it or throw it far beyond the first one.
+  /// \param coupled Whether a step knows that sliding impulses go with those along n; then it takes an iteration or
+  /// more longer, and only where bodies are rigid are fewer sets needed.
+  void exchangeActiveSets(bool coupled = false)
   {
-    constexpr int patience = 6;
+    int const patience = coupled ? 6 : 2;
+    constexpr double far = 10.0;
     Vector best = x_, point, slope = g_;
     double least = 1e300;
     for (int worse = 0; worse <= patience && least > enough_ && iterations_ < max_iterations_;)
@@ -144,19 +188,22 @@ private:
         least = reached;
         best = x_;
       }
-      if (least <= enough_ || worse > patience)
+      if (least <= enough_ || worse > patience || (start_ > 0.0 && reached > far * start_))
         break;
       setShift(0.1, least);
       if (point == x_)
         slope = g_;
       chooseSets(point, slope);
+      slides_.assign(n_, 0.0);
+      if (coupled)
+        chooseSliding();
       updateGradient();
       int const before = iterations_;
-      newtonStep();
+      newtonStep(coupled);
       iterations_ += iterations_ == before ? 1 : 0;
       for (int i = 0; i < n_; ++i)
       {
-        x_[i] += free_[i] ? step_[i] : 0.0;
+        x_[i] += free_[i] || slides_[i] != 0.0 ? step_[i] : 0.0;
         slope[i] = g_[i] + image_[i];
       }
       current_ = false;
@@ -175,6 +222,15 @@ private:
       free_[i] = limit.low < limit.high && limit.inside(to) ? 1 : 0;
       setUnknown(i, free_[i] ? point[i] : limit.clip(to));
     }
+  }
+
+  /// Impulses at friction's bounds that the impulses along n take with them.
+  void chooseSliding()
+  {
+    slides_.assign(n_, 0.0);
+    for (int i = 0; i < n_; ++i)
+      if (rubs(i) && !free_[i] && free_[problem_.normal_of[i]] && bounds_[i].low < bounds_[i].high)
+        slides_[i] = x_[i] > 0.0 ? problem_.friction[i] : -problem_.friction[i];
   }
 
   double violation() const
@@ -206,44 +262,21 @@ private:
   /// Dependent rows give A eigenvalues down to nothing, along which a step without a shift is 1e6 times the impulses.
   /// A residual that closing velocities w have left is sqrt(eigenvalue) w along an eigenvector: what has been reached
   /// squared is the eigenvalue that matters next.
-  void newtonStep()
+  void newtonStep(bool sliding = false)
   {
-    constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose row sums are at most one
     constexpr int most = 30;
-    factor_.factor(problem_.matrix, free_, shift_, least);
-    step_.assign(n_, 0.0);
-    image_.assign(n_, 0.0);
-    direction_.assign(n_, 0.0);
+    system_.factor(free_, Vector(n_, shift_));
     residual_.resize(n_);
     for (int i = 0; i < n_; ++i)
       residual_[i] = free_[i] ? -g_[i] : 0.0;
-    double before = 0.0;
-    double const good = std::max(0.01 * largest(residual_), 0.1 * enough_);
-    for (int k = 0; k < most && iterations_ < max_iterations_ && largest(residual_) > good; ++k)
-    {
-      z_ = residual_;
-      factor_.solve(z_);
-      ++iterations_;
-      double const now = dot(residual_, z_);
-      for (int i = 0; i < n_; ++i)
-        direction_[i] = z_[i] + (k > 0 ? now / before * direction_[i] : 0.0);
-      problem_.multiply(direction_, product_);
-      for (int i = 0; i < n_; ++i)
-        product_[i] += shift_ * direction_[i];
-      double const curvature = dot(direction_, product_);
-      if (!(curvature > 0.0))
-        break;
-      double const length = now / curvature;
-      for (int i = 0; i < n_; ++i)
-      {
-        step_[i] += length * direction_[i];
-        image_[i] += length * (product_[i] - shift_ * direction_[i]);
-        residual_[i] -= free_[i] ? length * product_[i] : 0.0;
-      }
-      before = now;
-    }
+    double const good = std::max(0.01 * system_.largest(residual_), 0.1 * enough_);
+    int const left = std::min(most, max_iterations_ - iterations_);
+    if (sliding && std::any_of(slides_.begin(), slides_.end(), [](double s) { return s != 0.0; }))
+      iterations_ += system_.solveSliding(residual_, slides_, good, left, step_, image_);
+    else
+      iterations_ += system_.solve(residual_, good, left, step_, image_);
     for (int i = 0; i < n_; ++i)
-      if (!free_[i])
+      if (!free_[i] && !(sliding && slides_[i] != 0.0))
         step_[i] = -g_[i];
   }
 
@@ -334,26 +367,19 @@ private:
     current_ = false;
   }
 
-  double largest(Vector const &v) const
-  {
-    double most = 0.0;
-    for (int i = 0; i < n_; ++i)
-      most = std::max(most, problem_.root[i] * std::fabs(v[i]));
-    return most;
-  }
-
   DualProblem const &problem_;
   double const enough_;
   int const max_iterations_;
   int const n_;
+  ShiftedSystem system_;
   std::vector<ImpulseBounds> bounds_; // across n with friction they follow the impulses along n
   Vector x_, g_;
   bool current_ = true; // g is the gradient at x
-  Vector step_, image_, residual_, z_, direction_, product_;
+  Vector step_, image_, residual_, product_;
   std::vector<char> free_;
+  Vector slides_;
   double const safe_step_;
   double start_ = 0.0, shift_ = 0.0;
-  SkylineCholesky factor_;
   int iterations_ = 0;
 };
 

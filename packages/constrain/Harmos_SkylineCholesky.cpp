@@ -25,6 +25,24 @@ void LowerTriangle::multiply(std::vector<double> const &x, std::vector<double> &
   }
 }
 
+LowerTriangle byRows(std::vector<MatrixEntry> const &entry, std::size_t size)
+{
+  LowerTriangle matrix;
+  matrix.offset.assign(size + 1, 0);
+  for (MatrixEntry const &x : entry)
+    ++matrix.offset[x.row + 1];
+  std::partial_sum(matrix.offset.begin(), matrix.offset.end(), matrix.offset.begin());
+  std::vector<int> next(matrix.offset.begin(), matrix.offset.end() - 1);
+  matrix.column.resize(entry.size());
+  matrix.value.resize(entry.size());
+  for (MatrixEntry const &x : entry)
+  {
+    matrix.column[next[x.row]] = x.column;
+    matrix.value[next[x.row]++] = x.value;
+  }
+  return matrix;
+}
+
 namespace
 {
 
@@ -81,7 +99,8 @@ std::vector<int> reverseCuthillMcKee(std::vector<int> const &offset, std::vector
   return order;
 }
 
-void SkylineCholesky::factor(LowerTriangle const &a, std::vector<char> const &kept, double shift, double least)
+void SkylineCholesky::factor(LowerTriangle const &a, std::vector<char> const &kept, std::vector<double> const &shift,
+                             double least)
 {
   kept_.clear();
   place_.assign(kept.size(), -1);
@@ -112,7 +131,8 @@ void SkylineCholesky::factor(LowerTriangle const &a, std::vector<char> const &ke
     for (int e = a.offset[kept_[i]]; e < a.offset[kept_[i] + 1]; ++e)
       if (kept[a.column[e]])
         row[base + place_[a.column[e]]] += a.value[e];
-    double pivot = row[base + i] < least ? 1.0 : row[base + i] + shift;
+    double const diagonal = row[base + i] + shift[kept_[i]];
+    double pivot = diagonal < least ? 1.0 : diagonal;
     for (int j = first_[i]; j < i; ++j)
     {
       std::ptrdiff_t const other = base_[j];
@@ -122,7 +142,7 @@ void SkylineCholesky::factor(LowerTriangle const &a, std::vector<char> const &ke
       row[base + j] = sum / row[other + j];
       pivot -= row[base + j] * row[base + j];
     }
-    row[base + i] = std::sqrt(std::max(pivot, shift));
+    row[base + i] = std::sqrt(std::max(pivot, shift[kept_[i]]));
   }
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TinyScene.hpp"
 
+#include <Harmos_InteriorPoint.hpp>
 #include <Harmos_ProjectedNewton.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iostream>
 #include <numeric>
 #include <random>
 
@@ -91,6 +93,67 @@ DualProblem problemOf(Dense const &a, std::vector<double> const &b, std::vector<
   return problem;
 }
 
+/// Rows of a long interface: each closes a gap between four of fewer velocities than there are rows, so that rows
+/// depend on each other; with friction every second unknown is along the interface, and feels a little of its
+/// neighbours.
+DualProblem stripOfRows(int rows, double friction, std::mt19937 &engine)
+{
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int const directions = friction > 0.0 ? 2 : 1, n = directions * rows, velocities = 4 * rows / 5 + 4;
+  Dense rows_of(n, std::vector<double>(4));
+  std::vector<double> v(directions * velocities);
+  for (double &x : v)
+    x = uniform(engine) - 0.3;
+  std::vector<int> first(n);
+  DualProblem problem;
+  for (int i = 0; i < n; ++i)
+  {
+    int const row = i / directions, k = i % directions;
+    first[i] = 4 * row / 5;
+    double const along = row / 1.25 - first[i], normal = 0.5; // sqrt of the largest row sum
+    rows_of[i] = {normal * (1.0 - along) / 2.0, normal / 2.0, normal * along / 2.0, 0.05 * normal};
+    problem.b.push_back(0.0);
+    for (int c = 0; c < 4; ++c)
+      problem.b[i] += rows_of[i][c] * v[k * velocities + first[i] + c];
+    for (int j = 0; j <= i; ++j)
+    {
+      if (first[j] + 3 < first[i])
+        continue;
+      double sum = 0.0;
+      for (int c = 0; c < 4; ++c)
+        if (first[i] + c >= first[j] && first[i] + c < first[j] + 4)
+          sum += rows_of[i][c] * rows_of[j][first[i] + c - first[j]];
+      problem.matrix.column.push_back(j);
+      problem.matrix.value.push_back(k == j % directions ? sum : 0.02 * sum);
+    }
+    problem.matrix.offset.push_back(static_cast<int>(problem.matrix.column.size()));
+    problem.normal_of.push_back(k == 1 ? i - 1 : -1);
+    problem.friction.push_back(k == 1 ? friction : 0.0);
+  }
+  problem.root.assign(n, 1.0);
+  problem.tied.assign(n, 0);
+  return problem;
+}
+
+/// Largest violation of the conditions of contact and Coulomb's friction, worked out apart from the solver.
+double violationOf(DualProblem const &problem, std::vector<double> const &x)
+{
+  std::vector<double> r;
+  problem.multiply(x, r);
+  double most = 0.0;
+  for (int i = 0; i < problem.size(); ++i)
+  {
+    double const g = r[i] + problem.b[i],
+                 reach = problem.normal_of[i] < 0 ? 1e300 : problem.friction[i] * x[problem.normal_of[i]];
+    double const low = problem.normal_of[i] < 0 ? 0.0 : -reach;
+    if (x[i] < low || x[i] > reach)
+      return 1e300;
+    bool const held = (x[i] <= low && g >= 0.0) || (x[i] >= reach && g <= 0.0) || reach == 0.0;
+    most = std::max(most, held ? 0.0 : std::fabs(g));
+  }
+  return most;
+}
+
 /// The solution among all choices of which sliding unknowns are zero: the one that satisfies every condition.
 std::vector<double> byEnumeration(Dense const &a, std::vector<double> const &b, std::vector<char> const &tied)
 {
@@ -149,7 +212,7 @@ TEST(SkylineCholesky, anyPartOfABandedMatrix_isSolvedAsByGauss)
         right[i] = kept[i] ? right[i] : 0.0;
       }
   SkylineCholesky factor;
-  factor.factor(lowerOf(a), kept, 1e-300, 0.0);
+  factor.factor(lowerOf(a), kept, std::vector<double>(n, 1e-300), 0.0);
   std::vector<double> x = b;
   factor.solve(x);
   std::vector<double> const exact = gauss(part, right);
@@ -204,6 +267,123 @@ TEST(ProjectedNewton, randomProblems_haveTheSolutionOfEnumeration)
       EXPECT_NEAR(found.x[i], exact[i], 1e-7 * (1.0 + std::fabs(exact[i])));
     EXPECT_LE(found.iterations, 30);
   }
+}
+
+TEST(InteriorPoint, randomProblems_haveTheSolutionOfEnumeration)
+{
+  std::mt19937 engine(12);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int trial = 0; trial < 40; ++trial)
+  {
+    int const n = 9;
+    Dense const a = randomMatrix(n, 3, engine);
+    std::vector<double> b(n);
+    std::vector<char> tied(n);
+    for (int i = 0; i < n; ++i)
+    {
+      b[i] = uniform(engine);
+      tied[i] = trial % 2 == 1 && i % 4 == 0 ? 1 : 0;
+    }
+    DualProblem const problem = problemOf(a, b, tied);
+    ShiftedSystem system(problem);
+    InteriorPoint interior(problem, system);
+    EXPECT_LE(interior.solve(1e-10, 100), 30);
+    std::vector<double> const exact = byEnumeration(a, b, tied), &found = interior.impulses();
+    ASSERT_EQ(exact.size(), b.size());
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(found[i], exact[i], 1e-7 * (1.0 + std::fabs(exact[i])));
+  }
+}
+
+// Friction's bounds move with the impulses along n; the path alone ends at the solution.
+TEST(InteriorPoint, frictionSlidesAtItsBounds)
+{
+  std::mt19937 engine(14);
+  DualProblem const problem = stripOfRows(200, 0.3, engine);
+  ShiftedSystem system(problem);
+  InteriorPoint interior(problem, system);
+  EXPECT_LE(interior.solve(1e-9, 100), 50);
+  std::vector<double> const &x = interior.impulses();
+  EXPECT_LE(violationOf(problem, x), 1e-8);
+  int sliding = 0, sticking = 0;
+  for (int i = 1; i < problem.size(); i += 2)
+  {
+    sliding += x[i - 1] > 0.0 && std::fabs(x[i]) >= 0.3 * x[i - 1] ? 1 : 0;
+    sticking += x[i - 1] > 0.0 && std::fabs(x[i]) < 0.3 * x[i - 1] ? 1 : 0;
+  }
+  EXPECT_GT(sliding, 10);
+  EXPECT_GT(sticking, 10);
+}
+
+// Rows that depend on each other, thousands of which change between open and pressed, stuck and sliding.
+TEST(ProjectedNewton, longStrips_needAtMostFiftyIterations)
+{
+  std::mt19937 engine(21);
+  for (int const rows : {20, 200, 2000})
+    for (double const friction : {0.0, 0.3})
+    {
+      DualProblem const problem = stripOfRows(rows, friction, engine);
+      DualSolution const found = projectedNewton(problem, 1e-9, 200);
+      EXPECT_LE(violationOf(problem, found.x), 1e-9) << rows << " " << friction;
+      EXPECT_LE(found.iterations, 50) << rows << " " << friction;
+      std::cout << rows << " rows, friction " << friction << ": " << found.iterations << " iterations\n";
+    }
+}
+
+// A free body that three rows touch: its share of the matrix is in the factor, which alone would know nothing of it.
+TEST(ShiftedSystem, aSmallBodyIsInTheFactor)
+{
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int const n = 12;
+  DualProblem problem = problemOf(randomMatrix(n, 2, engine), std::vector<double>(n, 0.0), std::vector<char>(n, 0));
+  problem.body_weight = {5.0, 4.0, 30.0};
+  for (int const unknown : {1, 6, 11})
+    for (int c = 0; c < 3; ++c)
+      problem.body.push_back({unknown, c, uniform(engine)});
+  ShiftedSystem system(problem);
+  system.factor(std::vector<char>(n, 1), std::vector<double>(n, 1e-12));
+  std::vector<double> right(n), step, image;
+  for (double &x : right)
+    x = uniform(engine);
+  std::vector<double> residual = right;
+  EXPECT_EQ(system.solve(residual, 1e-9, 30, step, image), 1);
+  problem.multiply(step, image);
+  for (int i = 0; i < n; ++i)
+    EXPECT_NEAR(image[i], right[i], 1e-8);
+}
+
+// Two impulses slide: they go with the two along n, in the direction that they have.
+TEST(ShiftedSystem, slidingImpulsesGoWithThoseAlongTheNormal)
+{
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int const n = 10;
+  Dense const a = randomMatrix(n, 3, engine);
+  DualProblem problem = problemOf(a, std::vector<double>(n, 0.0), std::vector<char>(n, 0));
+  std::vector<char> free(n, 1);
+  std::vector<double> slides(n, 0.0), right(n), step, image;
+  for (int const i : {3, 7})
+  {
+    problem.normal_of[i] = i - 1;
+    slides[i] = i == 3 ? 0.6 : -0.6;
+    free[i] = 0;
+  }
+  free[9] = 0; // at its bound
+  Dense coupled = a;
+  for (int i = 0; i < n; ++i)
+  {
+    right[i] = free[i] ? uniform(engine) : 0.0;
+    for (int j = 0; j < n; ++j)
+      coupled[i][j] = free[i] ? a[i][j] : i == j ? 1.0 : slides[i] != 0.0 && j == i - 1 ? -slides[i] : 0.0;
+  }
+  ShiftedSystem system(problem);
+  system.factor(free, std::vector<double>(n, 1e-12));
+  std::vector<double> residual = right;
+  EXPECT_LE(system.solveSliding(residual, slides, 1e-11, 30, step, image), n);
+  std::vector<double> const exact = gauss(coupled, right);
+  for (int i = 0; i < n; ++i)
+    EXPECT_NEAR(step[i], exact[i], 1e-8 * (1.0 + std::fabs(exact[i])));
 }
 
 // Every unknown twice, and one that nothing depends on: the impulses are not unique, the residual is.

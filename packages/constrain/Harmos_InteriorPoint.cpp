@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_InteriorPoint.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Harmos
+{
+
+InteriorPoint::InteriorPoint(DualProblem const &problem, ShiftedSystem &system)
+    : problem_(problem), system_(system), n_(problem.size()), free_(n_, 1), x_(n_, 0.0), g_(n_), shift_(n_), right_(n_),
+      low_change_(n_, 0.0), high_change_(n_, 0.0)
+{
+  low_.s.assign(n_, 0.0);
+  low_.z = high_.s = high_.z = low_.s;
+  double size = 0.0;
+  for (double const b : problem.b)
+    size = std::max(size, 0.3 * std::fabs(b)); // the scaled matrix has norm one
+  for (int i = 0; i < n_; ++i)
+    if (problem.normal_of[i] < 0 && hasLow(i))
+      x_[i] = low_.s[i] = low_.z[i] = size;
+  for (int i = 0; i < n_; ++i)
+  {
+    if (problem.normal_of[i] < 0)
+      continue;
+    free_[i] = problem.friction[i] > 0.0 ? 1 : 0;
+    low_.s[i] = high_.s[i] = problem.friction[i] * x_[problem.normal_of[i]];
+    low_.z[i] = high_.z[i] = size;
+  }
+}
+
+InteriorPoint::Progress InteriorPoint::progress() const
+{
+  double sum = 0.0, residual = 0.0, smaller = 0.0;
+  int bounds = 0;
+  auto const add = [&](Bound const &bound, int i)
+  {
+    sum += bound.s[i] * bound.z[i];
+    smaller = std::max(smaller, problem_.root[i] * std::min(bound.s[i], bound.z[i]));
+    ++bounds;
+  };
+  for (int i = 0; i < n_; ++i)
+  {
+    if (!free_[i])
+      continue;
+    residual = std::max(residual, problem_.root[i] * std::fabs(g_[i] - low_.z[i] + high_.z[i]));
+    if (hasLow(i))
+      add(low_, i);
+    if (hasHigh(i))
+      add(high_, i);
+  }
+  return {sum / std::max(bounds, 1), residual, smaller};
+}
+
+/// Diagonal and right side of Newton's step to products s z = target.
+void InteriorPoint::setStep(double target)
+{
+  constexpr double least = 1e-13; // of the unknowns without bounds
+  for (int i = 0; i < n_; ++i)
+  {
+    shift_[i] = least;
+    right_[i] = free_[i] ? -g_[i] : 0.0;
+    if (hasLow(i))
+    {
+      shift_[i] += low_.z[i] / low_.s[i];
+      right_[i] += target / low_.s[i];
+    }
+    if (hasHigh(i))
+    {
+      shift_[i] += high_.z[i] / high_.s[i];
+      right_[i] -= target / high_.s[i];
+    }
+  }
+}
+
+/// The part of the step that keeps all s and z positive, and the changes of z.
+double InteriorPoint::longestStep(double target)
+{
+  constexpr double part = 0.995;
+  double length = 1.0;
+  auto const meet = [&](Bound const &bound, int i, double towards, double &change)
+  {
+    double const s = bound.s[i], z = bound.z[i];
+    change = (target - z * towards) / s - z;
+    if (towards < 0.0)
+      length = std::min(length, -part * s / towards);
+    if (change < 0.0)
+      length = std::min(length, -part * z / change);
+  };
+  for (int i = 0; i < n_; ++i)
+  {
+    if (hasLow(i))
+      meet(low_, i, step_[i], low_change_[i]);
+    if (hasHigh(i))
+      meet(high_, i, -step_[i], high_change_[i]);
+  }
+  return length;
+}
+
+void InteriorPoint::follow(double length, double target)
+{
+  for (int i = 0; i < n_; ++i)
+  {
+    if (!free_[i])
+      continue;
+    x_[i] += length * step_[i];
+    if (hasLow(i))
+    {
+      low_.s[i] += length * step_[i];
+      low_.z[i] += length * low_change_[i];
+    }
+    if (hasHigh(i))
+    {
+      high_.s[i] -= length * step_[i];
+      high_.z[i] += length * high_change_[i];
+    }
+  }
+  moveFrictionBounds(target);
+}
+
+/// Slacks are scaled to the new bounds; their products with z stay within a factor of mu.
+void InteriorPoint::moveFrictionBounds(double mu)
+{
+  constexpr double factor = 100.0;
+  for (int i = 0; i < n_; ++i)
+  {
+    if (!hasHigh(i))
+      continue;
+    double const ratio = 2.0 * problem_.friction[i] * x_[problem_.normal_of[i]] / (low_.s[i] + high_.s[i]);
+    for (Bound *const bound : {&low_, &high_})
+    {
+      double &s = bound->s[i], &z = bound->z[i];
+      s *= ratio;
+      z = std::min(std::max(z, mu / (factor * s)), factor * mu / s);
+    }
+    x_[i] = 0.5 * (low_.s[i] - high_.s[i]);
+  }
+}
+
+int InteriorPoint::solve(double enough, int most)
+{
+  int iterations = 0;
+  for (double length = 0.9; iterations < most;)
+  {
+    problem_.multiply(x_, g_);
+    for (int i = 0; i < n_; ++i)
+      g_[i] += problem_.b[i];
+    Progress const now = progress();
+    if (now.complementarity <= enough && (now.residual <= enough || now.complementarity <= 0.1 * enough))
+      break;
+    double const sigma = std::min(std::max(1.0 - length, 0.05), 0.5), target = sigma * now.mu;
+    setStep(target);
+    system_.factor(free_, shift_);
+    iterations += system_.solve(right_, 0.01 * system_.largest(right_), std::min(30, most - iterations), step_, image_);
+    length = longestStep(target);
+    follow(length, (1.0 - length * (1.0 - sigma)) * now.mu);
+  }
+  return iterations;
+}
+
+std::vector<double> const &InteriorPoint::impulses()
+{
+  for (int i = 0; i < n_; ++i)
+    if (hasLow(i) && problem_.normal_of[i] < 0 && low_.s[i] < low_.z[i])
+      x_[i] = 0.0;
+  for (int i = 0; i < n_; ++i)
+  {
+    if (!hasHigh(i))
+      continue;
+    double const reach = problem_.friction[i] * x_[problem_.normal_of[i]];
+    x_[i] = low_.s[i] < low_.z[i] ? -reach : high_.s[i] < high_.z[i] ? reach : std::min(std::max(x_[i], -reach), reach);
+  }
+  return x_;
+}
+
+} // namespace Harmos

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ShiftedSystem.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace Harmos
+{
+
+namespace
+{
+
+double dot(std::vector<double> const &a, std::vector<double> const &b)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/// The deformable part, and of the free bodies those that few unknowns move: their share is a dense block of those.
+LowerTriangle withSmallBodies(DualProblem const &problem)
+{
+  constexpr std::size_t few = 100; // unknowns of a body: a block of 1e4 entries
+  std::vector<std::vector<BodyEntry>> by_component(problem.body_weight.size());
+  for (BodyEntry const &e : problem.body)
+    by_component[e.component].push_back(e);
+  std::vector<MatrixEntry> entry;
+  for (std::size_t c = 0; c < by_component.size(); ++c)
+    for (std::size_t k = 0; by_component[c].size() <= few && k < by_component[c].size(); ++k)
+      for (BodyEntry const &other : by_component[c])
+      {
+        BodyEntry const &e = by_component[c][k];
+        if (other.unknown <= e.unknown)
+          entry.push_back({e.unknown, other.unknown, e.jacobian * other.jacobian * problem.body_weight[c]});
+      }
+  if (entry.empty())
+    return problem.matrix;
+  LowerTriangle const &m = problem.matrix;
+  for (int i = 0; i < m.size(); ++i)
+    for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
+      entry.push_back({i, m.column[e], m.value[e]});
+  return byRows(entry, problem.b.size());
+}
+
+} // namespace
+
+ShiftedSystem::ShiftedSystem(DualProblem const &problem) : problem_(problem), factored_(withSmallBodies(problem)) {}
+
+double ShiftedSystem::largest(std::vector<double> const &v) const
+{
+  double most = 0.0;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    most = std::max(most, problem_.root[i] * std::fabs(v[i]));
+  return most;
+}
+
+void ShiftedSystem::factor(std::vector<char> free, std::vector<double> shift)
+{
+  constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose row sums are at most one
+  free_ = std::move(free);
+  shift_ = std::move(shift);
+  factor_.factor(factored_, free_, shift_, least);
+}
+
+int ShiftedSystem::solve(std::vector<double> &residual, double good, int most, std::vector<double> &step,
+                         std::vector<double> &image)
+{
+  std::size_t const n = residual.size();
+  step.assign(n, 0.0);
+  image.assign(n, 0.0);
+  direction_.assign(n, 0.0);
+  double before = 0.0;
+  int iterations = 0;
+  while (iterations < most && largest(residual) > good)
+  {
+    z_ = residual;
+    factor_.solve(z_);
+    double const now = dot(residual, z_), share = iterations > 0 ? now / before : 0.0;
+    ++iterations;
+    for (std::size_t i = 0; i < n; ++i)
+      direction_[i] = z_[i] + share * direction_[i];
+    problem_.multiply(direction_, product_);
+    for (std::size_t i = 0; i < n; ++i)
+      product_[i] += shift_[i] * direction_[i];
+    double const curvature = dot(direction_, product_);
+    if (!(curvature > 0.0))
+      break;
+    double const length = now / curvature;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      step[i] += length * direction_[i];
+      image[i] += length * (product_[i] - shift_[i] * direction_[i]);
+      residual[i] -= free_[i] ? length * product_[i] : 0.0;
+    }
+    before = now;
+  }
+  return iterations;
+}
+
+void ShiftedSystem::applySliding(std::vector<double> &v, std::vector<double> const &slides, std::vector<double> &image,
+                                 std::vector<double> &out) const
+{
+  for (std::size_t i = 0; i < v.size(); ++i)
+    if (slides[i] != 0.0)
+      v[i] = slides[i] * v[problem_.normal_of[i]];
+  problem_.multiply(v, image);
+  out.resize(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i)
+    out[i] = free_[i] ? image[i] + shift_[i] * v[i] : 0.0;
+}
+
+int ShiftedSystem::solveSliding(std::vector<double> &residual, std::vector<double> const &slides, double good, int most,
+                                std::vector<double> &step, std::vector<double> &image)
+{
+  std::size_t const n = residual.size();
+  step.assign(n, 0.0);
+  image.assign(n, 0.0);
+  // Of each iteration: a direction, A of it, a unit vector q; (A + S) directions = Q R in the free unknowns.
+  std::vector<std::vector<double>> direction, its_image, q, column;
+  std::vector<double> share; // Q^T right
+  int iterations = 0;
+  while (iterations < most && largest(residual) > good)
+  {
+    direction.push_back(residual);
+    its_image.emplace_back();
+    factor_.solve(direction.back());
+    ++iterations;
+    applySliding(direction.back(), slides, its_image.back(), product_);
+    double const before = std::sqrt(dot(product_, product_));
+    column.emplace_back();
+    for (std::vector<double> const &other : q)
+    {
+      column.back().push_back(dot(product_, other));
+      for (std::size_t i = 0; i < n; ++i)
+        product_[i] -= column.back().back() * other[i];
+    }
+    double const length = std::sqrt(dot(product_, product_));
+    if (!(length > 1e-14 * before))
+    {
+      column.pop_back();
+      break;
+    }
+    column.back().push_back(length);
+    for (double &x : product_)
+      x /= length;
+    q.push_back(product_);
+    share.push_back(dot(residual, product_));
+    for (std::size_t i = 0; i < n; ++i)
+      residual[i] -= share.back() * product_[i];
+  }
+  std::vector<double> y = share;
+  for (int k = static_cast<int>(column.size()) - 1; k >= 0; --k)
+  {
+    for (std::size_t j = k + 1; j < column.size(); ++j)
+      y[k] -= column[j][k] * y[j];
+    y[k] /= column[k][k];
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      step[i] += y[k] * direction[k][i];
+      image[i] += y[k] * its_image[k][i];
+    }
+  }
+  return iterations;
+}
+
+} // namespace Harmos

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_SHIFTED_SYSTEM_HPP
+#define HARMOS_SHIFTED_SYSTEM_HPP
+
+#include <Harmos_DualProblem.hpp>
+
+namespace Harmos
+{
+
+/// \brief Solves (A + S) d = r for a part of a contact problem's unknowns, A its matrix, S diagonal.
+///
+/// Conjugate gradients preconditioned by a Cholesky factor that holds all of A but the free bodies of many rows, whose
+/// columns are dense: one iteration where there are none of them, a few more for each.
+class ShiftedSystem
+{
+public:
+  explicit ShiftedSystem(DualProblem const &problem);
+
+  /// Which unknowns are free, and S of them (> 0).
+  void factor(std::vector<char> free, std::vector<double> shift);
+
+  /// step = d, image = A d for the free unknowns; zero the step of the others.
+  ///
+  /// \param residual r at the free unknowns, zero at the others; on return what is left of it.
+  /// \param good     Largest residual that is left, times root. [m/s]
+  /// \param most     Iterations.
+  /// \return Iterations: solves with the factor.
+  int solve(std::vector<double> &residual, double good, int most, std::vector<double> &step,
+            std::vector<double> &image);
+
+  /// The same where friction slides: impulses across n at their bounds go with those along n, d_across = slides
+  /// d_along, so that the system is not symmetric (generalised conjugate residuals instead of conjugate gradients).
+  ///
+  /// \param slides By unknown: +-coefficient where it slides and the impulse along n is free, else zero.
+  /// \param step   With the sliding impulses' changes.
+  /// Eisenstat, Elman & Schultz, SIAM J. Numer. Anal. 20 (1983) 345-357.
+  int solveSliding(std::vector<double> &residual, std::vector<double> const &slides, double good, int most,
+                   std::vector<double> &step, std::vector<double> &image);
+
+  /// Largest entry of v times root. [m/s]
+  double largest(std::vector<double> const &v) const;
+
+private:
+  /// v with its sliding entries, and (A + S) of it at the free unknowns; A of it in image.
+  void applySliding(std::vector<double> &v, std::vector<double> const &slides, std::vector<double> &image,
+                    std::vector<double> &out) const;
+
+  DualProblem const &problem_;
+  LowerTriangle const factored_; // of A
+  SkylineCholesky factor_;
+  std::vector<char> free_;
+  std::vector<double> shift_;
+  std::vector<double> z_, direction_, product_;
+};
+
+} // namespace Harmos
+
+#endif
