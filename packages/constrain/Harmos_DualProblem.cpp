@@ -35,25 +35,49 @@ BlockPattern blockPattern(DualRows const &rows)
   return m;
 }
 
-/// Rows in an order that keeps those which share dof nodes near each other.
-std::vector<int> orderRows(BlockPattern const &m)
+/// Pairs of rows that one free body of few unknowns joins (isSmallBody).
+std::vector<std::pair<int, int>> joinedByBodies(DualRows const &rows)
+{
+  std::vector<std::vector<int>> of_body;
+  std::vector<int> unknowns;
+  for (std::size_t i = 0; i < rows.row.size(); ++i)
+    for (double const body : rows.row[i].body)
+    {
+      if (body < 0.0)
+        continue;
+      std::size_t const f = static_cast<std::size_t>(body);
+      of_body.resize(std::max(of_body.size(), f + 1));
+      unknowns.resize(of_body.size(), 0);
+      of_body[f].push_back(static_cast<int>(i));
+      unknowns[f] += static_cast<int>(rows.row[i].directions);
+    }
+  std::vector<std::pair<int, int>> joined;
+  for (std::size_t f = 0; f < of_body.size(); ++f)
+    for (std::size_t k = 0; isSmallBody(unknowns[f]) && k < of_body[f].size(); ++k)
+      for (std::size_t l = 0; l < k; ++l)
+        joined.emplace_back(of_body[f][k], of_body[f][l]);
+  return joined;
+}
+
+/// Rows in an order that keeps those which share dof nodes, or a small body, near each other.
+std::vector<int> orderRows(BlockPattern const &m, DualRows const &rows)
 {
   int const n = static_cast<int>(m.offset.size()) - 1;
-  std::vector<int> offset(n + 1, 0), item(2 * m.column.size()), filled(n, 0);
+  std::vector<std::pair<int, int>> joined = joinedByBodies(rows);
   for (int i = 0; i < n; ++i)
     for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
-      if (m.column[e] != i)
-      {
-        ++offset[i + 1];
-        ++offset[m.column[e] + 1];
-      }
-  std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  for (int i = 0; i < n; ++i)
-    for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
+      joined.emplace_back(i, m.column[e]);
+  std::vector<int> offset(n + 1, 0), item(2 * joined.size()), filled(n, 0);
+  for (auto const &[i, j] : joined)
+    if (i != j)
     {
-      int const j = m.column[e];
-      if (j == i)
-        continue;
+      ++offset[i + 1];
+      ++offset[j + 1];
+    }
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
+  for (auto const &[i, j] : joined)
+    if (i != j)
+    {
       item[offset[i] + filled[i]++] = j;
       item[offset[j] + filled[j]++] = i;
     }
@@ -268,6 +292,13 @@ void DualProblem::multiply(std::vector<double> const &x, std::vector<double> &ou
     out[e.unknown] += e.jacobian * body_weight[e.component] * motion[e.component];
 }
 
+void DualProblem::gradient(std::vector<double> const &x, std::vector<double> &out) const
+{
+  multiply(x, out);
+  for (std::size_t i = 0; i < b.size(); ++i)
+    out[i] += b[i];
+}
+
 double DualProblem::bodyTrace() const
 {
   double trace = 0.0;
@@ -314,7 +345,7 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
   std::vector<int> place;
   DualRows const all = allRows(std::move(own), key, exchange, place);
   BlockPattern const blocks = blockPattern(all);
-  std::vector<int> const order = orderRows(blocks);
+  std::vector<int> const order = orderRows(blocks, all);
   std::vector<int> first(all.key.size());
   int unknowns = 0;
   for (int const i : order)

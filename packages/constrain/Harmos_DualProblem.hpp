@@ -16,11 +16,19 @@ struct BodyEntry
   double jacobian; // scaled
 };
 
+/// Whether a free body's share of the matrix, a dense block of its unknowns, is small enough to be factored (1e4
+/// entries) and to be known to the order of the unknowns.
+constexpr bool isSmallBody(int unknowns)
+{
+  return unknowns <= 100;
+}
+
 /// \brief The contact problem of all ranks' rows as one sparse matrix on the host, the same bits on every rank.
 ///
 /// Unknowns x = sqrt(D) p, one for each direction of a row, D the row sums of ContactSystem; x^T A x / 2 + b . x over
 /// low <= x <= high, A = D^-1/2 G M^-1 P G^T D^-1/2. The rows follow each other along the interfaces
-/// (reverse Cuthill-McKee), so that the deformable part of A is a narrow band; free bodies are applied beside it.
+/// (reverse Cuthill-McKee), so that the deformable part of A is a narrow band; free bodies are applied beside it, and
+/// factored with it where they are small (ShiftedSystem).
 struct DualProblem
 {
   LowerTriangle matrix;            // deformable part
@@ -37,6 +45,12 @@ struct DualProblem
 
   /// out = A x, free bodies included
   void multiply(std::vector<double> const &x, std::vector<double> &out) const;
+
+  /// out = A x + b
+  void gradient(std::vector<double> const &x, std::vector<double> &out) const;
+
+  /// Largest |x| across n by the impulse along n. \param i Across n with friction.
+  double reach(int i, std::vector<double> const &x) const { return friction[i] * x[normal_of[i]]; }
 
   /// Sum of the diagonal of the free bodies' part: with one added a bound of the norm of A.
   double bodyTrace() const;

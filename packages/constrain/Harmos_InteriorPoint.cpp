@@ -15,7 +15,7 @@ InteriorPoint::InteriorPoint(DualProblem const &problem, ShiftedSystem &system)
   low_.z = high_.s = high_.z = low_.s;
   double size = 0.0;
   for (double const b : problem.b)
-    size = std::max(size, 0.3 * std::fabs(b)); // the scaled matrix has norm one
+    size = std::max(size, 0.3 * std::fabs(b)); // the scaled matrix has a norm about one
   for (int i = 0; i < n_; ++i)
     if (problem.normal_of[i] < 0 && hasLow(i))
       x_[i] = low_.s[i] = low_.z[i] = size;
@@ -24,7 +24,7 @@ InteriorPoint::InteriorPoint(DualProblem const &problem, ShiftedSystem &system)
     if (problem.normal_of[i] < 0)
       continue;
     free_[i] = problem.friction[i] > 0.0 ? 1 : 0;
-    low_.s[i] = high_.s[i] = problem.friction[i] * x_[problem.normal_of[i]];
+    low_.s[i] = high_.s[i] = problem.reach(i, x_);
     low_.z[i] = high_.z[i] = size;
   }
 }
@@ -55,7 +55,7 @@ InteriorPoint::Progress InteriorPoint::progress() const
 /// Diagonal and right side of Newton's step to products s z = target.
 void InteriorPoint::setStep(double target)
 {
-  constexpr double least = 1e-13; // of the unknowns without bounds
+  constexpr double least = 1e-13; // for unknowns without bounds
   for (int i = 0; i < n_; ++i)
   {
     shift_[i] = least;
@@ -97,7 +97,8 @@ double InteriorPoint::longestStep(double target)
   return length;
 }
 
-void InteriorPoint::follow(double length, double target)
+/// \param mu What the step leaves of the mean product.
+void InteriorPoint::follow(double length, double mu)
 {
   for (int i = 0; i < n_; ++i)
   {
@@ -115,7 +116,7 @@ void InteriorPoint::follow(double length, double target)
       high_.z[i] += length * high_change_[i];
     }
   }
-  moveFrictionBounds(target);
+  moveFrictionBounds(mu);
 }
 
 /// Slacks are scaled to the new bounds; their products with z stay within a factor of mu.
@@ -126,7 +127,7 @@ void InteriorPoint::moveFrictionBounds(double mu)
   {
     if (!hasHigh(i))
       continue;
-    double const ratio = 2.0 * problem_.friction[i] * x_[problem_.normal_of[i]] / (low_.s[i] + high_.s[i]);
+    double const ratio = 2.0 * problem_.reach(i, x_) / (low_.s[i] + high_.s[i]);
     for (Bound *const bound : {&low_, &high_})
     {
       double &s = bound->s[i], &z = bound->z[i];
@@ -139,38 +140,49 @@ void InteriorPoint::moveFrictionBounds(double mu)
 
 int InteriorPoint::solve(double enough, int most)
 {
+  constexpr int most_steps = 60;
+  constexpr double endless = 1e8; // times the first impulses
+  bool const rubs = std::any_of(problem_.normal_of.begin(), problem_.normal_of.end(), [](int i) { return i >= 0; });
+  double const first = system_.largest(x_);
+  double length = 0.9;
   int iterations = 0;
-  for (double length = 0.9; iterations < most;)
+  for (int step = 0; step < most_steps && iterations < most; ++step)
   {
-    problem_.multiply(x_, g_);
-    for (int i = 0; i < n_; ++i)
-      g_[i] += problem_.b[i];
+    problem_.gradient(x_, g_);
     Progress const now = progress();
-    if (now.complementarity <= enough && (now.residual <= enough || now.complementarity <= 0.1 * enough))
+    bool const only_bounds_move = rubs && now.complementarity <= 0.1 * enough;
+    if (now.complementarity <= enough && (now.residual <= enough || only_bounds_move))
       break;
     double const sigma = std::min(std::max(1.0 - length, 0.05), 0.5), target = sigma * now.mu;
     setStep(target);
     system_.factor(free_, shift_);
-    iterations += system_.solve(right_, 0.01 * system_.largest(right_), std::min(30, most - iterations), step_, image_);
+    int const solves =
+        system_.solve(right_, 0.01 * system_.largest(right_), std::min(30, most - iterations), step_, image_);
+    iterations += std::max(solves, 1);
     length = longestStep(target);
+    if (!std::isfinite(length) || !std::isfinite(now.mu))
+      break;
     follow(length, (1.0 - length * (1.0 - sigma)) * now.mu);
+    if (system_.largest(x_) > endless * first)
+      break;
   }
   return iterations;
 }
 
-std::vector<double> const &InteriorPoint::impulses()
+std::vector<double> InteriorPoint::impulses() const
 {
+  std::vector<double> x = x_;
   for (int i = 0; i < n_; ++i)
     if (hasLow(i) && problem_.normal_of[i] < 0 && low_.s[i] < low_.z[i])
-      x_[i] = 0.0;
+      x[i] = 0.0;
   for (int i = 0; i < n_; ++i)
   {
     if (!hasHigh(i))
       continue;
-    double const reach = problem_.friction[i] * x_[problem_.normal_of[i]];
-    x_[i] = low_.s[i] < low_.z[i] ? -reach : high_.s[i] < high_.z[i] ? reach : std::min(std::max(x_[i], -reach), reach);
+    double const reach = problem_.reach(i, x);
+    x[i] = low_.s[i] < low_.z[i] ? -reach : high_.s[i] < high_.z[i] ? reach : std::min(std::max(x[i], -reach), reach);
   }
-  return x_;
+  return x;
 }
 
 } // namespace Harmos

@@ -13,12 +13,12 @@ namespace Harmos
 ///
 ///     A x + b = z_low - z_high,   s z = mu,   s, z > 0,   mu -> 0:
 ///
-/// each step is Newton's, (A + z_low/s_low + z_high/s_high) d = -(A x + b) + sigma mu (1/s_low - 1/s_high), and goes
-/// 0.995 of the way to the first bound of s or z; sigma, between 0.05 and 0.5, is one less what the last step could
-/// go. All unknowns move towards their bounds together, so that the steps hardly grow with their number: 10 to 30 from
-/// ten to ten thousand. After each step friction's bounds |x| <= reach follow the impulses along n; x and its slacks
-/// are scaled with them (a fixed-point iteration: rows of rigid bodies, whose normal and tangential impulses couple
-/// strongly, may be left with a residual).
+/// each step is Newton's, (A + z_low/s_low + z_high/s_high + 1e-13) d = -(A x + b) + sigma mu (1/s_low - 1/s_high), and
+/// goes 0.995 of the way to the first bound of s or z; sigma, between 0.05 and 0.5, is one less what the last step
+/// could go. All unknowns move towards their bounds together, so that the steps hardly grow with their number: 10 to 26
+/// from ten to ten thousand, 14 to 46 with friction. After each step friction's bounds |x| <= reach follow the impulses
+/// along n; x and its slacks are scaled with them (a fixed-point iteration: rows of rigid bodies, whose normal and
+/// tangential impulses couple strongly, may be left with a residual).
 ///
 /// Nocedal & Wright, Numerical Optimization, 2nd ed., Springer 2006, sections 14.2 and 16.6; products s z of friction
 /// are kept within a factor of 100 of mu as by Waechter & Biegler, Math. Program. 106 (2006) 25-57, eq. 16.
@@ -28,22 +28,23 @@ public:
   InteriorPoint(DualProblem const &problem, ShiftedSystem &system);
 
   /// From impulses of one size until the residual and the smaller of s and z, times root, are at most `enough`; or
-  /// nothing but friction's bounds moves, or the steps are used up.
-  /// \return Solves with a factor.
+  /// nothing but friction's bounds moves, the impulses grow without end (rows that nothing can part), or 60 steps or
+  /// `most` solves are used up.
+  /// \return Solves with a factor, at least one for each step.
   int solve(double enough, int most);
 
   /// Impulses, at a bound where the slack is smaller than its multiplier.
-  std::vector<double> const &impulses();
+  std::vector<double> impulses() const;
 
 private:
   struct Bound
   {
-    std::vector<double> s, z; // no entry used: no bound
+    std::vector<double> s, z; // zero where an unknown has no such bound
   };
 
   struct Progress
   {
-    double mu, residual, complementarity;
+    double mu, residual, complementarity; // mean of s z; the others times root [m/s]
   };
 
   bool hasLow(int i) const { return free_[i] && problem_.tied[i] == 0; }
@@ -52,7 +53,7 @@ private:
   Progress progress() const;
   void setStep(double target);
   double longestStep(double target);
-  void follow(double length, double target);
+  void follow(double length, double mu);
   void moveFrictionBounds(double mu);
 
   DualProblem const &problem_;

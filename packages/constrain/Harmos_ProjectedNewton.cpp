@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Harmos
 {
@@ -40,7 +41,7 @@ public:
     if (!start.empty())
       beginAt(start);
     exchangeActiveSets();
-    if (!reached())
+    if (!reached() && std::any_of(problem_.tied.begin(), problem_.tied.end(), [](char t) { return t == 0; }))
       followInterior();
     if (!reached())
       exchangeActiveSets(true);
@@ -53,7 +54,7 @@ public:
         break;
       setShift(0.01, reached);
       chooseFree();
-      if (!descend())
+      if (!descend() && iterations_ < max_iterations_)
         safeStep();
     }
     updateGradient();
@@ -64,18 +65,11 @@ private:
   /// Across n, by friction.
   bool rubs(int i) const { return problem_.normal_of[i] >= 0; }
 
-  void gradient(Vector const &x, Vector &out) const
-  {
-    problem_.multiply(x, out);
-    for (int i = 0; i < n_; ++i)
-      out[i] += problem_.b[i];
-  }
-
   /// The gradient at x, which most steps have already.
   void updateGradient()
   {
     if (!current_)
-      gradient(x_, g_);
+      problem_.gradient(x_, g_);
     current_ = true;
   }
 
@@ -96,7 +90,7 @@ private:
     {
       if (problem_.normal_of[i] < 0)
         continue;
-      double const before = bounds_[i].high, reach = problem_.friction[i] * x_[problem_.normal_of[i]];
+      double const before = bounds_[i].high, reach = problem_.reach(i, x_);
       bounds_[i] = {-reach, reach};
       bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
       setUnknown(i, slides ? (g_[i] < 0.0 ? reach : -reach) : bounds_[i].clip(x_[i]));
@@ -130,7 +124,7 @@ private:
     for (int i = 0; i < n_; ++i)
       if (rubs(i))
       {
-        double const reach = problem_.friction[i] * x[problem_.normal_of[i]];
+        double const reach = problem_.reach(i, x);
         bounds_[i] = {-reach, reach};
       }
     updateGradient();
@@ -147,36 +141,37 @@ private:
   /// couples strongly may leave it farther off than the sets had been.
   void followInterior()
   {
-    constexpr int most = 60;
     Vector const before = x_;
     double const least = violation();
     InteriorPoint interior(problem_, system_);
-    iterations_ += interior.solve(enough_, std::min(most, max_iterations_ - iterations_));
+    iterations_ += interior.solve(enough_, max_iterations_ - iterations_);
     begin(interior.impulses());
     exchangeActiveSets();
-    if (!reached() && violation() > least)
+    if (!reached() && !(violation() < least))
       begin(before);
   }
 
   void setShift(double factor, double reached)
   {
     start_ = start_ > 0.0 ? start_ : reached;
-    shift_ = std::max(factor * (reached / start_) * (reached / start_), 1e-13);
+    shift_ = std::max(factor * (reached / start_) * (reached / start_), 1e-7);
   }
 
   /// Primal-dual active sets: an unknown is free where x - g lies between its bounds, else at the bound beyond which it
   /// lies; a Newton step of the free ones may leave their bounds, which the next sets mend. Whole sets change at once,
   /// so that places far from each other settle together; the residual may grow on the way. What was best is kept, and
-  /// left to other steps where a few sets do not halve it or throw it far beyond the first one.
+  /// left to other steps where a few sets do not halve it (fewer where many unknowns change places) or throw it far
+  /// beyond the first one.
   /// \param coupled Whether a step knows that sliding impulses go with those along n; then it takes an iteration or
   /// more longer, and only where bodies are rigid are fewer sets needed.
   void exchangeActiveSets(bool coupled = false)
   {
-    int const patience = coupled ? 6 : 2;
+    constexpr int few = 8, patient = 6, hasty = 2;
     constexpr double far = 10.0;
+    int patience = patient;
     Vector best = x_, point, slope = g_;
     double least = 1e300;
-    for (int worse = 0; worse <= patience && least > enough_ && iterations_ < max_iterations_;)
+    for (int worse = 0; least > enough_ && iterations_ < max_iterations_;)
     {
       point = x_;
       moveReach();
@@ -193,7 +188,7 @@ private:
       setShift(0.1, least);
       if (point == x_)
         slope = g_;
-      chooseSets(point, slope);
+      patience = chooseSets(point, slope) <= few || coupled ? patient : hasty;
       slides_.assign(n_, 0.0);
       if (coupled)
         chooseSliding();
@@ -213,21 +208,25 @@ private:
   }
 
   /// The sets at a point that may lie beyond bounds, and x with what is not free at its bound.
-  void chooseSets(Vector const &point, Vector const &slope)
+  /// \return How many unknowns change between free and held.
+  int chooseSets(Vector const &point, Vector const &slope)
   {
+    int changed = 0;
     for (int i = 0; i < n_; ++i)
     {
       ImpulseBounds const limit = bounds_[i];
       double const to = point[i] - slope[i];
-      free_[i] = limit.low < limit.high && limit.inside(to) ? 1 : 0;
-      setUnknown(i, free_[i] ? point[i] : limit.clip(to));
+      char const free = limit.low < limit.high && limit.inside(to) ? 1 : 0;
+      changed += free != free_[i] ? 1 : 0;
+      free_[i] = free;
+      setUnknown(i, free ? point[i] : limit.clip(to));
     }
+    return changed;
   }
 
   /// Impulses at friction's bounds that the impulses along n take with them.
   void chooseSliding()
   {
-    slides_.assign(n_, 0.0);
     for (int i = 0; i < n_; ++i)
       if (rubs(i) && !free_[i] && free_[problem_.normal_of[i]] && bounds_[i].low < bounds_[i].high)
         slides_[i] = x_[i] > 0.0 ? problem_.friction[i] : -problem_.friction[i];
@@ -237,7 +236,10 @@ private:
   {
     double largest = 0.0;
     for (int i = 0; i < n_; ++i)
-      largest = std::max(largest, problem_.root[i] * bounds_[i].violation(x_[i], g_[i]));
+    {
+      double const own = problem_.root[i] * bounds_[i].violation(x_[i], g_[i]);
+      largest = std::isnan(own) ? std::numeric_limits<double>::infinity() : std::max(largest, own);
+    }
     return largest;
   }
 
@@ -261,7 +263,7 @@ private:
   ///
   /// Dependent rows give A eigenvalues down to nothing, along which a step without a shift is 1e6 times the impulses.
   /// A residual that closing velocities w have left is sqrt(eigenvalue) w along an eigenvector: what has been reached
-  /// squared is the eigenvalue that matters next.
+  /// squared is the eigenvalue that matters next. Below 1e-7 round-off of the gradient grows along what nothing moves.
   void newtonStep(bool sliding = false)
   {
     constexpr int most = 30;

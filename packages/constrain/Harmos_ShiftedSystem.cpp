@@ -22,13 +22,12 @@ double dot(std::vector<double> const &a, std::vector<double> const &b)
 /// The deformable part, and of the free bodies those that few unknowns move: their share is a dense block of those.
 LowerTriangle withSmallBodies(DualProblem const &problem)
 {
-  constexpr std::size_t few = 100; // unknowns of a body: a block of 1e4 entries
   std::vector<std::vector<BodyEntry>> by_component(problem.body_weight.size());
   for (BodyEntry const &e : problem.body)
     by_component[e.component].push_back(e);
   std::vector<MatrixEntry> entry;
   for (std::size_t c = 0; c < by_component.size(); ++c)
-    for (std::size_t k = 0; by_component[c].size() <= few && k < by_component[c].size(); ++k)
+    for (std::size_t k = 0; isSmallBody(static_cast<int>(by_component[c].size())) && k < by_component[c].size(); ++k)
       for (BodyEntry const &other : by_component[c])
       {
         BodyEntry const &e = by_component[c][k];
@@ -58,7 +57,7 @@ double ShiftedSystem::largest(std::vector<double> const &v) const
 
 void ShiftedSystem::factor(std::vector<char> free, std::vector<double> shift)
 {
-  constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose row sums are at most one
+  constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose deformable row sums are at most one
   free_ = std::move(free);
   shift_ = std::move(shift);
   factor_.factor(factored_, free_, shift_, least);

@@ -19,7 +19,7 @@ public:
   /// Which unknowns are free, and S of them (> 0).
   void factor(std::vector<char> free, std::vector<double> shift);
 
-  /// step = d, image = A d for the free unknowns; zero the step of the others.
+  /// step = d, zero at the unknowns that are not free; image = A d, at all of them.
   ///
   /// \param residual r at the free unknowns, zero at the others; on return what is left of it.
   /// \param good     Largest residual that is left, times root. [m/s]

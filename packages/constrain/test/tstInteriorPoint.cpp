@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DualProblems.hpp"
+
+#include <Harmos_InteriorPoint.hpp>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace HarmosTest;
+
+TEST(SkylineCholesky, anyPartOfABandedMatrix_isSolvedAsByGauss)
+{
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int const n = 30;
+  Dense const a = randomMatrix(n, 4, engine);
+  std::vector<char> kept(n);
+  std::vector<double> b(n);
+  for (int i = 0; i < n; ++i)
+  {
+    kept[i] = i % 7 != 3 && i != 12 ? 1 : 0;
+    b[i] = uniform(engine);
+  }
+  Dense part = a;
+  std::vector<double> right = b;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (!kept[i] || !kept[j])
+      {
+        part[i][j] = i == j ? 1.0 : 0.0;
+        right[i] = kept[i] ? right[i] : 0.0;
+      }
+  SkylineCholesky factor;
+  factor.factor(lowerOf(a), kept, std::vector<double>(n, 1e-300), 0.0);
+  std::vector<double> x = b;
+  factor.solve(x);
+  std::vector<double> const exact = gauss(part, right);
+  for (int i = 0; i < n; ++i)
+    EXPECT_NEAR(x[i], exact[i], 1e-8 * std::fabs(exact[i]) + 1e-10);
+}
+
+TEST(SkylineCholesky, cuthillMcKee_ofAShuffledChain_isTheChain)
+{
+  int const n = 50;
+  std::vector<int> name(n);
+  std::iota(name.begin(), name.end(), 0);
+  std::shuffle(name.begin(), name.end(), std::mt19937(7));
+  std::vector<std::vector<int>> neighbours(n);
+  for (int i = 0; i + 1 < n; ++i)
+  {
+    neighbours[name[i]].push_back(name[i + 1]);
+    neighbours[name[i + 1]].push_back(name[i]);
+  }
+  std::vector<int> offset = {0}, item;
+  for (auto const &list : neighbours)
+  {
+    item.insert(item.end(), list.begin(), list.end());
+    offset.push_back(static_cast<int>(item.size()));
+  }
+  std::vector<int> order = reverseCuthillMcKee(offset, item);
+  if (order.front() != name.front())
+    std::reverse(order.begin(), order.end());
+  EXPECT_EQ(order, name);
+}
+
+TEST(InteriorPoint, randomProblems_haveTheSolutionOfEnumeration)
+{
+  std::mt19937 engine(12);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int trial = 0; trial < 40; ++trial)
+  {
+    int const n = 9;
+    Dense const a = randomMatrix(n, 3, engine);
+    std::vector<double> b(n);
+    std::vector<char> tied(n);
+    for (int i = 0; i < n; ++i)
+    {
+      b[i] = uniform(engine);
+      tied[i] = trial % 2 == 1 && i % 4 == 0 ? 1 : 0;
+    }
+    DualProblem const problem = problemOf(a, b, tied);
+    ShiftedSystem system(problem);
+    InteriorPoint interior(problem, system);
+    EXPECT_LE(interior.solve(1e-10, 100), 30);
+    std::vector<double> const exact = byEnumeration(a, b, tied), found = interior.impulses();
+    ASSERT_EQ(exact.size(), b.size());
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(found[i], exact[i], 1e-7 * (1.0 + std::fabs(exact[i])));
+  }
+}
+
+TEST(InteriorPoint, frictionSlidesAtItsBounds)
+{
+  std::mt19937 engine(14);
+  DualProblem const problem = stripOfRows(200, 0.3, engine);
+  ShiftedSystem system(problem);
+  InteriorPoint interior(problem, system);
+  EXPECT_LE(interior.solve(1e-9, 100), 50);
+  std::vector<double> const x = interior.impulses();
+  EXPECT_LE(violationOf(problem, x), 1e-8);
+  int sliding = 0, sticking = 0;
+  for (int i = 1; i < problem.size(); i += 2)
+  {
+    sliding += x[i - 1] > 0.0 && std::fabs(x[i]) >= 0.3 * x[i - 1] ? 1 : 0;
+    sticking += x[i - 1] > 0.0 && std::fabs(x[i]) < 0.3 * x[i - 1] ? 1 : 0;
+  }
+  EXPECT_GT(sliding, 10);
+  EXPECT_GT(sticking, 10);
+}
+
+TEST(ShiftedSystem, aSmallBodyIsInTheFactor)
+{
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int const n = 12;
+  DualProblem problem = problemOf(randomMatrix(n, 2, engine), std::vector<double>(n, 0.0), std::vector<char>(n, 0));
+  problem.body_weight = {5.0, 4.0, 30.0};
+  for (int const unknown : {1, 6, 11})
+    for (int c = 0; c < 3; ++c)
+      problem.body.push_back({unknown, c, uniform(engine)});
+  ShiftedSystem system(problem);
+  system.factor(std::vector<char>(n, 1), std::vector<double>(n, 1e-12));
+  std::vector<double> right(n), step, image;
+  for (double &x : right)
+    x = uniform(engine);
+  std::vector<double> residual = right;
+  EXPECT_EQ(system.solve(residual, 1e-9, 30, step, image), 1);
+  for (int i = 0; i < n; ++i)
+    EXPECT_NEAR(image[i], right[i], 1e-8);
+  problem.multiply(step, right);
+  for (int i = 0; i < n; ++i)
+    EXPECT_NEAR(image[i], right[i], 1e-12);
+}
+
+TEST(ShiftedSystem, aLargeBodyTakesAFewIterations)
+{
+  std::mt19937 engine(18);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int const n = 150;
+  DualProblem problem = problemOf(randomMatrix(n, 2, engine), std::vector<double>(n, 0.0), std::vector<char>(n, 0));
+  problem.body_weight = {0.5, 0.4, 0.3};
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c)
+      problem.body.push_back({i, c, uniform(engine)});
+  std::vector<char> free(n, 1);
+  free[70] = 0;
+  ShiftedSystem system(problem);
+  system.factor(free, std::vector<double>(n, 1e-12));
+  std::vector<double> right(n), step, image, product;
+  for (double &x : right)
+    x = uniform(engine);
+  right[70] = 0.0;
+  std::vector<double> residual = right;
+  int const iterations = system.solve(residual, 1e-10, 30, step, image);
+  EXPECT_GT(iterations, 1);
+  EXPECT_LE(iterations, 8);
+  problem.multiply(step, product);
+  EXPECT_EQ(step[70], 0.0);
+  for (int i = 0; i < n; ++i)
+  {
+    EXPECT_NEAR(image[i], product[i], 1e-11);
+    EXPECT_NEAR(i != 70 ? image[i] : 0.0, right[i], 1e-9);
+  }
+}
+
+TEST(ShiftedSystem, slidingImpulsesGoWithThoseAlongTheNormal)
+{
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int const n = 10;
+  Dense const a = randomMatrix(n, 3, engine);
+  DualProblem problem = problemOf(a, std::vector<double>(n, 0.0), std::vector<char>(n, 0));
+  std::vector<char> free(n, 1);
+  std::vector<double> slides(n, 0.0), right(n), step, image;
+  for (int const i : {3, 7})
+  {
+    problem.normal_of[i] = i - 1;
+    slides[i] = i == 3 ? 0.6 : -0.6;
+    free[i] = 0;
+  }
+  free[9] = 0; // at its bound
+  Dense coupled = a;
+  for (int i = 0; i < n; ++i)
+  {
+    right[i] = free[i] ? uniform(engine) : 0.0;
+    for (int j = 0; j < n; ++j)
+      coupled[i][j] = free[i] ? a[i][j] : i == j ? 1.0 : slides[i] != 0.0 && j == i - 1 ? -slides[i] : 0.0;
+  }
+  ShiftedSystem system(problem);
+  system.factor(free, std::vector<double>(n, 1e-12));
+  std::vector<double> residual = right;
+  EXPECT_LE(system.solveSliding(residual, slides, 1e-11, 30, step, image), n);
+  std::vector<double> const exact = gauss(coupled, right);
+  for (int i = 0; i < n; ++i)
+    EXPECT_NEAR(step[i], exact[i], 1e-8 * (1.0 + std::fabs(exact[i])));
+}
