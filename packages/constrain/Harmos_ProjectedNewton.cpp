@@ -27,7 +27,8 @@ class Newton
 public:
   Newton(DualProblem const &problem, double enough, int max_iterations)
       : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), system_(problem),
-        x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace()))
+        x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace())),
+        least_shift_(problem.body.empty() ? 1e-13 : 1e-7)
   {
     constexpr double none = 1.0e300;
     bounds_.reserve(n_);
@@ -154,7 +155,7 @@ private:
   void setShift(double factor, double reached)
   {
     start_ = start_ > 0.0 ? start_ : reached;
-    shift_ = std::max(factor * (reached / start_) * (reached / start_), 1e-7);
+    shift_ = std::max(factor * (reached / start_) * (reached / start_), least_shift_);
   }
 
   /// Primal-dual active sets: an unknown is free where x - g lies between its bounds, else at the bound beyond which it
@@ -263,7 +264,7 @@ private:
   ///
   /// Dependent rows give A eigenvalues down to nothing, along which a step without a shift is 1e6 times the impulses.
   /// A residual that closing velocities w have left is sqrt(eigenvalue) w along an eigenvector: what has been reached
-  /// squared is the eigenvalue that matters next. Below 1e-7 round-off of the gradient grows along what nothing moves.
+  /// squared is the eigenvalue that matters next. Of rigid bodies half of the eigenvalues are next to nothing.
   void newtonStep(bool sliding = false)
   {
     constexpr int most = 30;
@@ -380,7 +381,7 @@ private:
   Vector step_, image_, residual_, product_;
   std::vector<char> free_;
   Vector slides_;
-  double const safe_step_;
+  double const safe_step_, least_shift_;
   double start_ = 0.0, shift_ = 0.0;
   int iterations_ = 0;
 };
