@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Harmos
 {
@@ -142,16 +143,16 @@ int InteriorPoint::solve(double enough, int most)
 {
   constexpr int most_steps = 60;
   constexpr double endless = 1e8; // times the first impulses
-  bool const rubs = std::any_of(problem_.normal_of.begin(), problem_.normal_of.end(), [](int i) { return i >= 0; });
   double const first = system_.largest(x_);
-  double length = 0.9;
+  double length = 0.9, before = std::numeric_limits<double>::infinity();
   int iterations = 0;
   for (int step = 0; step < most_steps && iterations < most; ++step)
   {
     problem_.gradient(x_, g_);
     Progress const now = progress();
-    bool const only_bounds_move = rubs && now.complementarity <= 0.1 * enough;
-    if (now.complementarity <= enough && (now.residual <= enough || only_bounds_move))
+    bool const stays = now.complementarity <= 0.1 * enough && now.residual > 0.5 * before;
+    before = now.residual;
+    if (stays || (now.complementarity <= enough && now.residual <= enough))
       break;
     double const sigma = std::min(std::max(1.0 - length, 0.05), 0.5), target = sigma * now.mu;
     setStep(target);

@@ -28,9 +28,9 @@ public:
   InteriorPoint(DualProblem const &problem, ShiftedSystem &system);
 
   /// From impulses of one size until the residual and the smaller of s and z, times root, are at most `enough`; or
-  /// nothing but friction's bounds moves, the impulses grow without end (rows that nothing can part), or 60 steps or
-  /// `most` solves are used up.
-  /// \return Solves with a factor, at least one for each step.
+  /// only the residual is left and stays (friction's bounds that move, round-off), the impulses grow without end (rows
+  /// that nothing can part), or 60 steps or `most` solves are used up. \return Solves with a factor, at least one for
+  /// each step.
   int solve(double enough, int most);
 
   /// Impulses, at a bound where the slack is smaller than its multiplier.
