@@ -46,14 +46,15 @@ public:
       followInterior();
     if (!reached())
       exchangeActiveSets(true);
-    while (iterations_ < max_iterations_)
+    std::vector<ImpulseBounds> before = bounds_;
+    for (int round = 0; iterations_ < max_iterations_; ++round)
     {
-      moveReach();
-      updateGradient();
-      double const reached = violation();
-      if (reached <= enough_)
+      if (reached())
         break;
-      setShift(0.01, reached);
+      if (round >= undamped_rounds_)
+        dampReach(before);
+      before = bounds_;
+      setShift(0.01, violation());
       chooseFree();
       if (!descend() && iterations_ < max_iterations_)
         safeStep();
@@ -96,6 +97,21 @@ private:
       bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
       setUnknown(i, slides ? (g_[i] < 0.0 ? reach : -reach) : bounds_[i].clip(x_[i]));
     }
+  }
+
+  /// Friction's bounds go half of their way only: where impulses along and across n couple they may else be thrown to
+  /// and fro.
+  void dampReach(std::vector<ImpulseBounds> const &before)
+  {
+    for (int i = 0; i < n_; ++i)
+    {
+      if (!rubs(i))
+        continue;
+      double const now = bounds_[i].high, reach = 0.5 * (before[i].high + now);
+      setUnknown(i, x_[i] >= now ? reach : x_[i] <= -now ? -reach : std::min(std::max(x_[i], -reach), reach));
+      bounds_[i] = {-reach, reach};
+    }
+    updateGradient();
   }
 
   /// What the shift compares residuals with stays that of zero.
@@ -381,6 +397,7 @@ private:
   Vector step_, image_, residual_, product_;
   std::vector<char> free_;
   Vector slides_;
+  static constexpr int undamped_rounds_ = 4;
   double const safe_step_, least_shift_;
   double start_ = 0.0, shift_ = 0.0;
   int iterations_ = 0;
