@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace Harmos
 {
@@ -27,10 +28,14 @@ class Newton
 public:
   Newton(DualProblem const &problem, double enough, int max_iterations)
       : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), system_(problem),
-        x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace())),
-        least_shift_(problem.body.empty() ? 1e-13 : 1e-7)
+        x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace())), least_shift_(n_, 1e-7)
   {
-    constexpr double none = 1.0e300;
+    constexpr double none = 1.0e300, rigid = 1e-6, deformable_shift = 1e-13;
+    LowerTriangle const &a = problem.matrix;
+    for (int i = 0; i < n_; ++i)
+      for (int e = a.offset[i]; e < a.offset[i + 1]; ++e)
+        if (a.column[e] == i && a.value[e] > rigid)
+          least_shift_[i] = deformable_shift;
     bounds_.reserve(n_);
     for (int i = 0; i < n_; ++i)
       bounds_.push_back(rubs(i) ? ImpulseBounds{0.0, 0.0} : ImpulseBounds{problem.tied[i] ? -none : 0.0, none});
@@ -42,7 +47,9 @@ public:
     if (!start.empty())
       beginAt(start);
     exchangeActiveSets();
-    if (!reached() && std::any_of(problem_.tied.begin(), problem_.tied.end(), [](char t) { return t == 0; }))
+    // Few unknowns are sooner dropped one by one.
+    bool const inside_first = many_change_ || n_ > 100;
+    if (!reached() && inside_first)
       followInterior();
     if (!reached())
       exchangeActiveSets(true);
@@ -51,6 +58,8 @@ public:
     {
       if (reached())
         break;
+      if (round == patient_rounds_ && !inside_first)
+        followInterior();
       if (round >= undamped_rounds_)
         dampReach(before);
       before = bounds_;
@@ -154,8 +163,8 @@ private:
     return violation() <= enough_;
   }
 
-  /// Where whole sets change places for ever: a path inside the bounds, and sets once more from its end. Friction that
-  /// couples strongly may leave it farther off than the sets had been.
+  /// Where many unknowns change places for ever: a path inside the bounds, and sets once more from its end. Friction
+  /// that couples strongly may leave it farther off than the sets had been.
   void followInterior()
   {
     Vector const before = x_;
@@ -171,7 +180,7 @@ private:
   void setShift(double factor, double reached)
   {
     start_ = start_ > 0.0 ? start_ : reached;
-    shift_ = std::max(factor * (reached / start_) * (reached / start_), least_shift_);
+    shift_ = factor * (reached / start_) * (reached / start_);
   }
 
   /// Primal-dual active sets: an unknown is free where x - g lies between its bounds, else at the bound beyond which it
@@ -205,7 +214,8 @@ private:
       setShift(0.1, least);
       if (point == x_)
         slope = g_;
-      patience = chooseSets(point, slope) <= few || coupled ? patient : hasty;
+      many_change_ = chooseSets(point, slope) > few;
+      patience = many_change_ && !coupled ? hasty : patient;
       slides_.assign(n_, 0.0);
       if (coupled)
         chooseSliding();
@@ -280,11 +290,15 @@ private:
   ///
   /// Dependent rows give A eigenvalues down to nothing, along which a step without a shift is 1e6 times the impulses.
   /// A residual that closing velocities w have left is sqrt(eigenvalue) w along an eigenvector: what has been reached
-  /// squared is the eigenvalue that matters next. Of rigid bodies half of the eigenvalues are next to nothing.
+  /// squared is the eigenvalue that matters next. Of rows between rigid bodies half of the eigenvalues are next to
+  /// nothing: they have a shift of 1e-7 at least.
   void newtonStep(bool sliding = false)
   {
     constexpr int most = 30;
-    system_.factor(free_, Vector(n_, shift_));
+    Vector shift(n_, shift_);
+    for (int i = 0; i < n_; ++i)
+      shift[i] = std::max(shift_, least_shift_[i]);
+    system_.factor(free_, std::move(shift));
     residual_.resize(n_);
     for (int i = 0; i < n_; ++i)
       residual_[i] = free_[i] ? -g_[i] : 0.0;
@@ -397,10 +411,12 @@ private:
   Vector step_, image_, residual_, product_;
   std::vector<char> free_;
   Vector slides_;
-  static constexpr int undamped_rounds_ = 4;
-  double const safe_step_, least_shift_;
+  static constexpr int undamped_rounds_ = 4, patient_rounds_ = 30;
+  double const safe_step_;
+  Vector least_shift_;
   double start_ = 0.0, shift_ = 0.0;
   int iterations_ = 0;
+  bool many_change_ = false; // unknowns between free and held, when sets were last exchanged
 };
 
 } // namespace
