@@ -40,6 +40,7 @@ TEST(SkylineCholesky, anyPartOfABandedMatrix_isSolvedAsByGauss)
     EXPECT_NEAR(x[i], exact[i], 1e-8 * std::fabs(exact[i]) + 1e-10);
 }
 
+// A chain whose links are numbered at random comes back as a chain.
 TEST(SkylineCholesky, cuthillMcKee_ofAShuffledChain_isTheChain)
 {
   int const n = 50;
@@ -90,6 +91,7 @@ TEST(InteriorPoint, randomProblems_haveTheSolutionOfEnumeration)
   }
 }
 
+// Friction's bounds move with the impulses along n; the path alone ends at the solution.
 TEST(InteriorPoint, frictionSlidesAtItsBounds)
 {
   std::mt19937 engine(14);
@@ -109,6 +111,7 @@ TEST(InteriorPoint, frictionSlidesAtItsBounds)
   EXPECT_GT(sticking, 10);
 }
 
+// A free body that three rows touch: its share of the matrix is in the factor, which alone would know nothing of it.
 TEST(ShiftedSystem, aSmallBodyIsInTheFactor)
 {
   std::mt19937 engine(8);
@@ -133,6 +136,7 @@ TEST(ShiftedSystem, aSmallBodyIsInTheFactor)
     EXPECT_NEAR(image[i], right[i], 1e-12);
 }
 
+// A body that more rows touch than are factored: conjugate gradients find what the factor does not know.
 TEST(ShiftedSystem, aLargeBodyTakesAFewIterations)
 {
   std::mt19937 engine(18);
@@ -164,6 +168,7 @@ TEST(ShiftedSystem, aLargeBodyTakesAFewIterations)
   }
 }
 
+// Two impulses slide: they go with the two along n, in the direction that they have.
 TEST(ShiftedSystem, slidingImpulsesGoWithThoseAlongTheNormal)
 {
   std::mt19937 engine(9);
