@@ -4,6 +4,8 @@
 
 #include <Harmos_DualProblem.hpp>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -29,6 +31,16 @@ inline LowerTriangle lowerOf(Dense const &a)
     lower.offset.push_back(static_cast<int>(lower.column.size()));
   }
   return lower;
+}
+
+/// Between -1 and 1.
+inline std::vector<double> randomNumbers(int n, std::mt19937 &engine)
+{
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<double> numbers(n);
+  for (double &x : numbers)
+    x = uniform(engine);
+  return numbers;
 }
 
 /// B B^T of random numbers within a band, and a little of the unit matrix.
@@ -182,6 +194,28 @@ inline std::vector<double> byEnumeration(Dense const &a, std::vector<double> con
       return x;
   }
   return {};
+}
+
+/// Random problems, every second one with tied unknowns, against byEnumeration.
+/// \param solve Impulses of a problem.
+template <class Solve>
+void expectSolutionsOfEnumeration(Solve const &solve)
+{
+  std::mt19937 engine(11);
+  for (int trial = 0; trial < 40; ++trial)
+  {
+    int const n = 9;
+    Dense const a = randomMatrix(n, 3, engine);
+    std::vector<double> const b = randomNumbers(n, engine);
+    std::vector<char> tied(n);
+    for (int i = 0; i < n; ++i)
+      tied[i] = trial % 2 == 1 && i % 4 == 0 ? 1 : 0;
+    std::vector<double> const exact = byEnumeration(a, b, tied), found = solve(problemOf(a, b, tied));
+    ASSERT_EQ(exact.size(), b.size());
+    ASSERT_EQ(found.size(), b.size());
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(found[i], exact[i], 1e-7 * (1.0 + std::fabs(exact[i]))) << "trial " << trial;
+  }
 }
 
 } // namespace HarmosTest

@@ -12,16 +12,12 @@ using namespace HarmosTest;
 TEST(SkylineCholesky, anyPartOfABandedMatrix_isSolvedAsByGauss)
 {
   std::mt19937 engine(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int const n = 30;
   Dense const a = randomMatrix(n, 4, engine);
+  std::vector<double> const b = randomNumbers(n, engine);
   std::vector<char> kept(n);
-  std::vector<double> b(n);
   for (int i = 0; i < n; ++i)
-  {
     kept[i] = i % 7 != 3 && i != 12 ? 1 : 0;
-    b[i] = uniform(engine);
-  }
   Dense part = a;
   std::vector<double> right = b;
   for (int i = 0; i < n; ++i)
@@ -67,28 +63,14 @@ TEST(SkylineCholesky, cuthillMcKee_ofAShuffledChain_isTheChain)
 
 TEST(InteriorPoint, randomProblems_haveTheSolutionOfEnumeration)
 {
-  std::mt19937 engine(12);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (int trial = 0; trial < 40; ++trial)
-  {
-    int const n = 9;
-    Dense const a = randomMatrix(n, 3, engine);
-    std::vector<double> b(n);
-    std::vector<char> tied(n);
-    for (int i = 0; i < n; ++i)
-    {
-      b[i] = uniform(engine);
-      tied[i] = trial % 2 == 1 && i % 4 == 0 ? 1 : 0;
-    }
-    DualProblem const problem = problemOf(a, b, tied);
-    ShiftedSystem system(problem);
-    InteriorPoint interior(problem, system);
-    EXPECT_LE(interior.solve(1e-10, 100), 30);
-    std::vector<double> const exact = byEnumeration(a, b, tied), found = interior.impulses();
-    ASSERT_EQ(exact.size(), b.size());
-    for (int i = 0; i < n; ++i)
-      EXPECT_NEAR(found[i], exact[i], 1e-7 * (1.0 + std::fabs(exact[i])));
-  }
+  expectSolutionsOfEnumeration(
+      [](DualProblem const &problem)
+      {
+        ShiftedSystem system(problem);
+        InteriorPoint interior(problem, system);
+        EXPECT_LE(interior.solve(1e-10, 100), 30);
+        return interior.impulses();
+      });
 }
 
 // Friction's bounds move with the impulses along n; the path alone ends at the solution.
@@ -111,61 +93,68 @@ TEST(InteriorPoint, frictionSlidesAtItsBounds)
   EXPECT_GT(sticking, 10);
 }
 
+namespace
+{
+
+/// A random matrix and a free body of these inverse masses that some unknowns touch.
+DualProblem problemWithBody(int n, std::vector<int> const &touching, std::vector<double> const &inverse_mass,
+                            std::mt19937 &engine)
+{
+  DualProblem problem = problemOf(randomMatrix(n, 2, engine), std::vector<double>(n, 0.0), std::vector<char>(n, 0));
+  problem.body_weight = inverse_mass;
+  for (int const unknown : touching)
+  {
+    std::vector<double> const jacobian = randomNumbers(3, engine);
+    for (int c = 0; c < 3; ++c)
+      problem.body.push_back({unknown, c, jacobian[c]});
+  }
+  return problem;
+}
+
+/// Solves for the free unknowns with random right sides, and compares with the matrix. \return Iterations.
+int expectSolution(DualProblem const &problem, std::vector<char> const &free, std::mt19937 &engine)
+{
+  int const n = problem.size();
+  ShiftedSystem system(problem);
+  system.factor(free, std::vector<double>(n, 1e-12));
+  std::vector<double> right = randomNumbers(n, engine), step, image, product;
+  for (int i = 0; i < n; ++i)
+    right[i] = free[i] ? right[i] : 0.0;
+  std::vector<double> residual = right;
+  int const iterations = system.solve(residual, 1e-10, 30, step, image);
+  problem.multiply(step, product);
+  for (int i = 0; i < n; ++i)
+  {
+    EXPECT_NEAR(image[i], product[i], 1e-11);
+    EXPECT_NEAR(free[i] ? image[i] : 0.0, right[i], 1e-9);
+    EXPECT_EQ(free[i] ? 0.0 : step[i], 0.0);
+  }
+  return iterations;
+}
+
+} // namespace
+
 // A free body that three rows touch: its share of the matrix is in the factor, which alone would know nothing of it.
 TEST(ShiftedSystem, aSmallBodyIsInTheFactor)
 {
   std::mt19937 engine(8);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int const n = 12;
-  DualProblem problem = problemOf(randomMatrix(n, 2, engine), std::vector<double>(n, 0.0), std::vector<char>(n, 0));
-  problem.body_weight = {5.0, 4.0, 30.0};
-  for (int const unknown : {1, 6, 11})
-    for (int c = 0; c < 3; ++c)
-      problem.body.push_back({unknown, c, uniform(engine)});
-  ShiftedSystem system(problem);
-  system.factor(std::vector<char>(n, 1), std::vector<double>(n, 1e-12));
-  std::vector<double> right(n), step, image;
-  for (double &x : right)
-    x = uniform(engine);
-  std::vector<double> residual = right;
-  EXPECT_EQ(system.solve(residual, 1e-9, 30, step, image), 1);
-  for (int i = 0; i < n; ++i)
-    EXPECT_NEAR(image[i], right[i], 1e-8);
-  problem.multiply(step, right);
-  for (int i = 0; i < n; ++i)
-    EXPECT_NEAR(image[i], right[i], 1e-12);
+  DualProblem const problem = problemWithBody(n, {1, 6, 11}, {5.0, 4.0, 30.0}, engine);
+  EXPECT_EQ(expectSolution(problem, std::vector<char>(n, 1), engine), 1);
 }
 
 // A body that more rows touch than are factored: conjugate gradients find what the factor does not know.
 TEST(ShiftedSystem, aLargeBodyTakesAFewIterations)
 {
   std::mt19937 engine(18);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int const n = 150;
-  DualProblem problem = problemOf(randomMatrix(n, 2, engine), std::vector<double>(n, 0.0), std::vector<char>(n, 0));
-  problem.body_weight = {0.5, 0.4, 0.3};
-  for (int i = 0; i < n; ++i)
-    for (int c = 0; c < 3; ++c)
-      problem.body.push_back({i, c, uniform(engine)});
+  std::vector<int> every(n);
+  std::iota(every.begin(), every.end(), 0);
   std::vector<char> free(n, 1);
   free[70] = 0;
-  ShiftedSystem system(problem);
-  system.factor(free, std::vector<double>(n, 1e-12));
-  std::vector<double> right(n), step, image, product;
-  for (double &x : right)
-    x = uniform(engine);
-  right[70] = 0.0;
-  std::vector<double> residual = right;
-  int const iterations = system.solve(residual, 1e-10, 30, step, image);
+  int const iterations = expectSolution(problemWithBody(n, every, {0.5, 0.4, 0.3}, engine), free, engine);
   EXPECT_GT(iterations, 1);
   EXPECT_LE(iterations, 8);
-  problem.multiply(step, product);
-  EXPECT_EQ(step[70], 0.0);
-  for (int i = 0; i < n; ++i)
-  {
-    EXPECT_NEAR(image[i], product[i], 1e-11);
-    EXPECT_NEAR(i != 70 ? image[i] : 0.0, right[i], 1e-9);
-  }
 }
 
 // Two impulses slide: they go with the two along n, in the direction that they have.

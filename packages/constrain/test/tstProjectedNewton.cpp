@@ -10,26 +10,13 @@ using namespace HarmosTest;
 
 TEST(ProjectedNewton, randomProblems_haveTheSolutionOfEnumeration)
 {
-  std::mt19937 engine(11);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (int trial = 0; trial < 40; ++trial)
-  {
-    int const n = 9;
-    Dense const a = randomMatrix(n, 3, engine);
-    std::vector<double> b(n);
-    std::vector<char> tied(n);
-    for (int i = 0; i < n; ++i)
-    {
-      b[i] = uniform(engine);
-      tied[i] = trial % 2 == 1 && i % 4 == 0 ? 1 : 0;
-    }
-    DualSolution const found = projectedNewton(problemOf(a, b, tied), 1e-12, 200);
-    std::vector<double> const exact = byEnumeration(a, b, tied);
-    ASSERT_EQ(exact.size(), b.size());
-    for (int i = 0; i < n; ++i)
-      EXPECT_NEAR(found.x[i], exact[i], 1e-7 * (1.0 + std::fabs(exact[i])));
-    EXPECT_LE(found.iterations, 30);
-  }
+  expectSolutionsOfEnumeration(
+      [](DualProblem const &problem)
+      {
+        DualSolution const found = projectedNewton(problem, 1e-12, 200);
+        EXPECT_LE(found.iterations, 30);
+        return found.x;
+      });
 }
 
 // Rows that depend on each other, thousands of which change between open and pressed, stuck and sliding.
