@@ -6,7 +6,9 @@
 #include <Harmos_Moments.hpp>
 #include <Harmos_Reconstruct.hpp>
 
+#include <algorithm>
 #include <functional>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -218,9 +220,9 @@ inline CellFills bodies(std::vector<Body> const &all, Geometry geometry = Geomet
   };
 }
 
-/// Largest, over the mixed cells, of |region outside its body| / |cell| (with exact volumes half the symmetric
-/// difference).
-inline double misplacedVolume(Scene const &scene, FilledRegions const &regions, std::vector<Body> const &all)
+/// By mixed cell: |region outside its body| / |cell| (with exact volumes half the symmetric difference) of its pairs.
+inline std::map<int, std::vector<double>> misplacedByCell(Scene const &scene, FilledRegions const &regions,
+                                                          std::vector<Body> const &all)
 {
   auto const mixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.mixed_cell);
   auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
@@ -228,7 +230,7 @@ inline double misplacedVolume(Scene const &scene, FilledRegions const &regions, 
   auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
   auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.material);
   auto const cell_area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.mesh.cell_area);
-  double worst = 0.0;
+  std::map<int, std::vector<double>> by_cell;
   for (int i = 0; i < regions.num_mixed_cells; ++i)
   {
     int const cell = mixed(i);
@@ -236,9 +238,18 @@ inline double misplacedVolume(Scene const &scene, FilledRegions const &regions, 
     {
       Region const &region = polygon(first(cell) + pair - offset(cell));
       double const outside = area(region) - area(intersection(region, all[material(pair)]));
-      worst = std::max(worst, outside / cell_area(cell));
+      by_cell[cell].push_back(outside / cell_area(cell));
     }
   }
+  return by_cell;
+}
+
+/// The largest of all mixed cells.
+inline double misplacedVolume(Scene const &scene, FilledRegions const &regions, std::vector<Body> const &all)
+{
+  double worst = 0.0;
+  for (auto const &[cell, misplaced] : misplacedByCell(scene, regions, all))
+    worst = std::max(worst, *std::max_element(misplaced.begin(), misplaced.end()));
   return worst;
 }
 
