@@ -12,6 +12,9 @@ struct ImpulseBounds
 {
   double low, high;
 
+  /// Those of Coulomb's friction, across n. \param reach Largest |impulse|.
+  KOKKOS_INLINE_FUNCTION static ImpulseBounds ofFriction(double reach) { return {-reach, reach}; }
+
   KOKKOS_INLINE_FUNCTION double clip(double p) const { return Math::min(Math::max(p, low), high); }
   KOKKOS_INLINE_FUNCTION bool inside(double p) const { return p > low && p < high; }
 
@@ -25,6 +28,13 @@ struct ImpulseBounds
   KOKKOS_INLINE_FUNCTION double reduced(double p, double g, double step) const
   {
     return g > 0.0 ? Math::min(g, (p - low) / step) : Math::max(g, (p - high) / step);
+  }
+
+  /// Where p goes as the bounds `before` become these: it stays at the bound on which its gradient r presses it, else
+  /// is clipped.
+  KOKKOS_INLINE_FUNCTION double follow(ImpulseBounds before, double p, double r) const
+  {
+    return p >= before.high && r < 0.0 ? high : p <= before.low && r > 0.0 ? low : clip(p);
   }
 
   /// How far p and r are from complementarity: |r| between the bounds, its inward part at them.
@@ -90,7 +100,7 @@ struct ContactSystem
     constexpr double none = 1.0e300;
     if (tied(r))
       return {-none, none};
-    return k == 0 ? ImpulseBounds{0.0, none} : ImpulseBounds{-reach, reach};
+    return k == 0 ? ImpulseBounds{0.0, none} : ImpulseBounds::ofFriction(reach);
   }
 
   /// Derivative of the row's velocity along direction k with respect to component c (Vx, Vy, omega) of a side's body.

@@ -52,6 +52,12 @@ struct DualProblem
   /// Largest |x| across n by the impulse along n. \param i Across n with friction.
   double reach(int i, std::vector<double> const &x) const { return friction[i] * x[normal_of[i]]; }
 
+  /// Bounds of x there.
+  ImpulseBounds frictionBounds(int i, std::vector<double> const &x) const
+  {
+    return ImpulseBounds::ofFriction(reach(i, x));
+  }
+
   /// Sum of the diagonal of the free bodies' part: with one added a bound of the norm of A.
   double bodyTrace() const;
 };

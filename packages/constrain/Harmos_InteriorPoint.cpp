@@ -180,8 +180,8 @@ std::vector<double> InteriorPoint::impulses() const
   {
     if (!hasHigh(i))
       continue;
-    double const reach = problem_.reach(i, x);
-    x[i] = low_.s[i] < low_.z[i] ? -reach : high_.s[i] < high_.z[i] ? reach : std::min(std::max(x[i], -reach), reach);
+    ImpulseBounds const bounds = problem_.frictionBounds(i, x);
+    x[i] = low_.s[i] < low_.z[i] ? bounds.low : high_.s[i] < high_.z[i] ? bounds.high : bounds.clip(x[i]);
   }
   return x;
 }

@@ -200,8 +200,7 @@ void projectedStep(ContactSystem const &s, Conjugate const &c, double step, bool
       });
 }
 
-/// Bounds across n from the normal impulses, |p_t| <= mu p. Impulses outside of them return to them; those at a bound
-/// that their gradient presses on stay at it.
+/// Bounds across n from the normal impulses, |p_t| <= mu p, which the impulses across n follow.
 void setReach(ContactSystem const &s, Conjugate const &c)
 {
   launchFor(
@@ -209,10 +208,9 @@ void setReach(ContactSystem const &s, Conjugate const &c)
         int const row = s.own(i);
         if (s.tied(row) || s.directions(row) == 1)
           return;
-        double const before = c.reach(row), p = c.p(row, 1), r = c.r(row, 1);
+        ImpulseBounds const before = boundsOf(s, c, row, 1);
         c.reach(row) = s.friction(row) * c.p(row, 0);
-        bool const slides = (p >= before && r < 0.0) || (p <= -before && r > 0.0);
-        c.p(row, 1) = slides ? (r < 0.0 ? c.reach(row) : -c.reach(row)) : boundsOf(s, c, row, 1).clip(p);
+        c.p(row, 1) = boundsOf(s, c, row, 1).follow(before, c.p(row, 1), c.r(row, 1));
       });
 }
 
@@ -322,7 +320,7 @@ private:
         p(row, 1) = x[across] / problem.root[across];
       else if (across < problem.size() && problem.normal_of[across] == along)
       {
-        double const bound = problem.friction[across] * x[along];
+        double const bound = problem.reach(across, x);
         reach(row) = bound / problem.root[across];
         p(row, 1) = x[across] >= bound    ? reach(row)
                     : x[across] <= -bound ? -reach(row)

@@ -15,14 +15,6 @@ namespace
 
 using Vector = std::vector<double>;
 
-double dot(Vector const &a, Vector const &b)
-{
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 class Newton
 {
 public:
@@ -90,21 +82,19 @@ private:
     x_[i] = x;
   }
 
-  /// Friction's bounds from the impulses along n. Impulses at a bound that their gradient presses on stay at it; what
-  /// lies beyond a bound returns to it.
+  /// Friction's bounds from the impulses along n, which the impulses across n follow.
   void moveReach()
   {
     for (int i = 0; i < n_; ++i)
-      if (problem_.normal_of[i] < 0)
+      if (!rubs(i))
         setUnknown(i, bounds_[i].clip(x_[i]));
     for (int i = 0; i < n_; ++i)
     {
-      if (problem_.normal_of[i] < 0)
+      if (!rubs(i))
         continue;
-      double const before = bounds_[i].high, reach = problem_.reach(i, x_);
-      bounds_[i] = {-reach, reach};
-      bool const slides = (x_[i] >= before && g_[i] < 0.0) || (x_[i] <= -before && g_[i] > 0.0);
-      setUnknown(i, slides ? (g_[i] < 0.0 ? reach : -reach) : bounds_[i].clip(x_[i]));
+      ImpulseBounds const before = bounds_[i];
+      bounds_[i] = problem_.frictionBounds(i, x_);
+      setUnknown(i, bounds_[i].follow(before, x_[i], g_[i]));
     }
   }
 
@@ -116,9 +106,9 @@ private:
     {
       if (!rubs(i))
         continue;
-      double const now = bounds_[i].high, reach = 0.5 * (before[i].high + now);
-      setUnknown(i, x_[i] >= now ? reach : x_[i] <= -now ? -reach : std::min(std::max(x_[i], -reach), reach));
-      bounds_[i] = {-reach, reach};
+      double const now = bounds_[i].high;
+      bounds_[i] = ImpulseBounds::ofFriction(0.5 * (before[i].high + now));
+      setUnknown(i, x_[i] >= now ? bounds_[i].high : x_[i] <= -now ? bounds_[i].low : bounds_[i].clip(x_[i]));
     }
     updateGradient();
   }
@@ -149,10 +139,7 @@ private:
     current_ = false;
     for (int i = 0; i < n_; ++i)
       if (rubs(i))
-      {
-        double const reach = problem_.reach(i, x);
-        bounds_[i] = {-reach, reach};
-      }
+        bounds_[i] = problem_.frictionBounds(i, x);
     updateGradient();
   }
 

@@ -11,14 +11,6 @@ namespace Harmos
 namespace
 {
 
-double dot(std::vector<double> const &a, std::vector<double> const &b)
-{
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /// The deformable part, and of the free bodies those that few unknowns move: their share is a dense block of those.
 LowerTriangle withSmallBodies(DualProblem const &problem)
 {

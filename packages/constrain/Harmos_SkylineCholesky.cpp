@@ -25,6 +25,14 @@ void LowerTriangle::multiply(std::vector<double> const &x, std::vector<double> &
   }
 }
 
+double dot(std::vector<double> const &a, std::vector<double> const &b)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
 LowerTriangle byRows(std::vector<MatrixEntry> const &entry, std::size_t size)
 {
   LowerTriangle matrix;

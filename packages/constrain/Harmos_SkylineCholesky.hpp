@@ -21,6 +21,9 @@ struct LowerTriangle
   void multiply(std::vector<double> const &x, std::vector<double> &out) const;
 };
 
+/// a . b, summed from the first entry on.
+double dot(std::vector<double> const &a, std::vector<double> const &b);
+
 struct MatrixEntry
 {
   int row, column;

@@ -42,6 +42,18 @@ Impulses impulses(TinyScene &scene)
 
 } // namespace
 
+TEST(Friction, anImpulseStaysAtTheBoundThatItsGradientPressesItOn)
+{
+  ImpulseBounds const before = ImpulseBounds::ofFriction(2.0), wider = ImpulseBounds::ofFriction(3.0),
+                      narrower = ImpulseBounds::ofFriction(1.0);
+  EXPECT_EQ(wider.follow(before, 2.0, -1.0), 3.0);
+  EXPECT_EQ(wider.follow(before, -2.0, 1.0), -3.0);
+  EXPECT_EQ(wider.follow(before, 2.0, 1.0), 2.0);
+  EXPECT_EQ(wider.follow(before, 0.5, -1.0), 0.5);
+  EXPECT_EQ(narrower.follow(before, 1.5, 1.0), 1.0);
+  EXPECT_EQ(narrower.follow(before, -2.0, -1.0), -1.0);
+}
+
 // Slow shear: the nodes of the interface take one common tangential velocity, with less than the bound.
 TEST(Friction, belowItsBound_sticks)
 {
