@@ -63,24 +63,32 @@ std::vector<std::pair<int, int>> joinedByBodies(DualRows const &rows)
 std::vector<int> orderRows(BlockPattern const &m, DualRows const &rows)
 {
   int const n = static_cast<int>(m.offset.size()) - 1;
-  std::vector<std::pair<int, int>> joined = joinedByBodies(rows);
-  for (int i = 0; i < n; ++i)
-    for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
-      joined.emplace_back(i, m.column[e]);
-  std::vector<int> offset(n + 1, 0), item(2 * joined.size()), filled(n, 0);
-  for (auto const &[i, j] : joined)
-    if (i != j)
-    {
-      ++offset[i + 1];
-      ++offset[j + 1];
-    }
+  std::vector<std::pair<int, int>> const joined = joinedByBodies(rows);
+  auto const forEachPair = [&](auto const &visit)
+  {
+    for (auto const &[i, j] : joined)
+      if (i != j)
+        visit(i, j);
+    for (int i = 0; i < n; ++i)
+      for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
+        if (i != m.column[e])
+          visit(i, m.column[e]);
+  };
+  std::vector<int> offset(n + 1, 0), filled(n, 0);
+  forEachPair(
+      [&](int i, int j)
+      {
+        ++offset[i + 1];
+        ++offset[j + 1];
+      });
   std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  for (auto const &[i, j] : joined)
-    if (i != j)
-    {
-      item[offset[i] + filled[i]++] = j;
-      item[offset[j] + filled[j]++] = i;
-    }
+  std::vector<int> item(offset[n]);
+  forEachPair(
+      [&](int i, int j)
+      {
+        item[offset[i] + filled[i]++] = j;
+        item[offset[j] + filled[j]++] = i;
+      });
   return reverseCuthillMcKee(offset, item);
 }
 

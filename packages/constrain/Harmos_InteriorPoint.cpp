@@ -144,6 +144,7 @@ int InteriorPoint::solve(double enough, int most)
   constexpr int most_steps = 60;
   constexpr double endless = 1e8; // times the first impulses
   double const first = system_.largest(x_);
+  std::vector<double> image; // of a step
   double length = 0.9, before = std::numeric_limits<double>::infinity();
   int iterations = 0;
   for (int step = 0; step < most_steps && iterations < most; ++step)
@@ -158,7 +159,7 @@ int InteriorPoint::solve(double enough, int most)
     setStep(target);
     system_.factor(free_, shift_);
     int const solves =
-        system_.solve(right_, 0.01 * system_.largest(right_), std::min(30, most - iterations), step_, image_);
+        system_.solve(right_, 0.01 * system_.largest(right_), std::min(30, most - iterations), step_, image);
     iterations += std::max(solves, 1);
     length = longestStep(target);
     if (!std::isfinite(length) || !std::isfinite(now.mu))

@@ -62,7 +62,7 @@ private:
   std::vector<char> free_; // without friction of coefficient zero
   std::vector<double> x_, g_;
   Bound low_, high_;
-  std::vector<double> shift_, right_, step_, image_, low_change_, high_change_; // changes of z
+  std::vector<double> shift_, right_, step_, low_change_, high_change_; // changes of z
 };
 
 } // namespace Harmos

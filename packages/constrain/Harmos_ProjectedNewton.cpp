@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace Harmos
 {
@@ -282,13 +281,14 @@ private:
   void newtonStep(bool sliding = false)
   {
     constexpr int most = 30;
-    Vector shift(n_, shift_);
-    for (int i = 0; i < n_; ++i)
-      shift[i] = std::max(shift_, least_shift_[i]);
-    system_.factor(free_, std::move(shift));
+    shifts_.resize(n_);
     residual_.resize(n_);
     for (int i = 0; i < n_; ++i)
+    {
+      shifts_[i] = std::max(shift_, least_shift_[i]);
       residual_[i] = free_[i] ? -g_[i] : 0.0;
+    }
+    system_.factor(free_, shifts_);
     double const good = std::max(0.01 * system_.largest(residual_), 0.1 * enough_);
     int const left = std::min(most, max_iterations_ - iterations_);
     if (sliding && std::any_of(slides_.begin(), slides_.end(), [](double s) { return s != 0.0; }))
@@ -395,7 +395,7 @@ private:
   std::vector<ImpulseBounds> bounds_; // across n with friction they follow the impulses along n
   Vector x_, g_;
   bool current_ = true; // g is the gradient at x
-  Vector step_, image_, residual_, product_;
+  Vector step_, image_, residual_, product_, shifts_;
   std::vector<char> free_;
   Vector slides_;
   static constexpr int undamped_rounds_ = 4, patient_rounds_ = 30;

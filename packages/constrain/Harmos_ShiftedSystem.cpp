@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace Harmos
 {
@@ -11,7 +10,8 @@ namespace Harmos
 namespace
 {
 
-/// The deformable part, and of the free bodies those that few unknowns move: their share is a dense block of those.
+/// The deformable part with those free bodies that few unknowns move: their share is a dense block of those. Empty
+/// where there are none.
 LowerTriangle withSmallBodies(DualProblem const &problem)
 {
   std::vector<std::vector<BodyEntry>> by_component(problem.body_weight.size());
@@ -27,7 +27,7 @@ LowerTriangle withSmallBodies(DualProblem const &problem)
           entry.push_back({e.unknown, other.unknown, e.jacobian * other.jacobian * problem.body_weight[c]});
       }
   if (entry.empty())
-    return problem.matrix;
+    return {};
   LowerTriangle const &m = problem.matrix;
   for (int i = 0; i < m.size(); ++i)
     for (int e = m.offset[i]; e < m.offset[i + 1]; ++e)
@@ -37,7 +37,7 @@ LowerTriangle withSmallBodies(DualProblem const &problem)
 
 } // namespace
 
-ShiftedSystem::ShiftedSystem(DualProblem const &problem) : problem_(problem), factored_(withSmallBodies(problem)) {}
+ShiftedSystem::ShiftedSystem(DualProblem const &problem) : problem_(problem), with_bodies_(withSmallBodies(problem)) {}
 
 double ShiftedSystem::largest(std::vector<double> const &v) const
 {
@@ -47,12 +47,12 @@ double ShiftedSystem::largest(std::vector<double> const &v) const
   return most;
 }
 
-void ShiftedSystem::factor(std::vector<char> free, std::vector<double> shift)
+void ShiftedSystem::factor(std::vector<char> const &free, std::vector<double> const &shift)
 {
   constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose deformable row sums are at most one
-  free_ = std::move(free);
-  shift_ = std::move(shift);
-  factor_.factor(factored_, free_, shift_, least);
+  free_ = free;
+  shift_ = shift;
+  factor_.factor(with_bodies_.size() > 0 ? with_bodies_ : problem_.matrix, free_, shift_, least);
 }
 
 int ShiftedSystem::solve(std::vector<double> &residual, double good, int most, std::vector<double> &step,

@@ -17,7 +17,7 @@ public:
   explicit ShiftedSystem(DualProblem const &problem);
 
   /// Which unknowns are free, and S of them (> 0).
-  void factor(std::vector<char> free, std::vector<double> shift);
+  void factor(std::vector<char> const &free, std::vector<double> const &shift);
 
   /// step = d, zero at the unknowns that are not free; image = A d, at all of them.
   ///
@@ -46,7 +46,7 @@ private:
                     std::vector<double> &out) const;
 
   DualProblem const &problem_;
-  LowerTriangle const factored_; // of A
+  LowerTriangle const with_bodies_; // the part of A that is factored; empty: the problem's matrix
   SkylineCholesky factor_;
   std::vector<char> free_;
   std::vector<double> shift_;
