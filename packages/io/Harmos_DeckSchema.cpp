@@ -45,8 +45,7 @@ void addMesh(ParameterList &mesh)
       "inner nodes move at random by up to this part of the smaller cell beside them, in x and in y");
   add(mesh, "file", std::string(), optional(rulesOf(KeyType::Text), "no file"),
       "lagrangian: Gmsh mesh of quadrilaterals (MSH 2.2 or 4.1, ASCII), from the deck's folder: bodies of shape mesh "
-      "part "
-      "are its physical surfaces; physical curves named left, right, bottom, top are boundaries");
+      "part are its physical surfaces; physical curves named left, right, bottom, top are boundaries");
   add(mesh, "jitter_seed", 1, integer(not_negative), "of the random numbers");
   ParameterList &smoother = mesh.sublist("smoother");
   add(smoother, "follow", 0.0, number(between(0.0, 1.0)),
@@ -206,8 +205,7 @@ void addNumerics(ParameterList &list)
   add(list, "cut_cell_stress", std::string("fluids"), choice({"cell mean", "fluids", "full cells", "filled regions"}),
       "xfem: where the stress of a material in a mixed cell acts. cell mean: along the cell's mean gradients; filled "
       "regions: over the part that it fills, in balance with the tractions; fluids: so for materials without strength; "
-      "full "
-      "cells: for the others too as far as their cell holds no void, none at 1% of it");
+      "full cells: for the others too as far as their cell holds no void, none at 1% of it");
   add(list, "closure", std::string("equal strain"), choice({"equal strain", "compressibility"}),
       "of mixed cells in `single`. equal strain: all materials of a cell strain alike; compressibility: they share its "
       "change of volume in proportion to volume over bulk modulus, void first");
@@ -220,8 +218,7 @@ void addNumerics(ParameterList &list)
   add(r.sublist("method = moment of fluid"), "sliver", reconstruction.sliver, number(between(0.0, 0.5)),
       "below this volume fraction normals come from least squares; where it is less than 1e-3, void below that and "
       "bodies that fill less than a tenth of every neighbour go by least squares too, void unless it is a tip of a "
-      "void "
-      "beyond");
+      "void beyond");
   add(r, "removal_order", Teuchos::Array<std::string>(), rulesOf(KeyType::Names),
       "fixed order in which materials leave a mixed cell: every field once, by its first body, and void (last when "
       "not named). Empty: chosen by the method");

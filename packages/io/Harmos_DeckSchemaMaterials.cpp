@@ -32,8 +32,7 @@ void addSpall(ParameterList &list)
 {
   add(list, "spall_pressure", 0.0, number(not_negative, "Pa"),
       "what reaches this tension (minus the pressure) fails: it carries neither tension nor shear any more, void "
-      "opens; "
-      "0: never");
+      "opens; 0: never");
   add(list, "spall_stress", 0.0, number(not_negative, "Pa"),
       "the same for the largest principal stress (tension positive); 0: never");
 }
