@@ -19,17 +19,18 @@ TEST(ProjectedNewton, randomProblems_haveTheSolutionOfEnumeration)
       });
 }
 
-// Rows that depend on each other, thousands of which change between open and pressed, stuck and sliding.
-TEST(ProjectedNewton, longStrips_needAtMostFiftyIterations)
+// Rows that depend on each other, thousands of which change between open and pressed, stuck and sliding. Forty such
+// sets of strips took 39 iterations at most; without the path inside the bounds three strips of these take 52 to 55.
+TEST(ProjectedNewton, longStrips_needThePathInsideTheBounds)
 {
   std::mt19937 engine(21);
   for (int const rows : {20, 200, 2000})
-    for (double const friction : {0.0, 0.3})
+    for (double const friction : {0.0, 0.3, 0.8})
     {
       DualProblem const problem = stripOfRows(rows, friction, engine);
       DualSolution const found = projectedNewton(problem, 1e-9, 200);
       EXPECT_LE(violationOf(problem, found.x), 1e-9) << rows << " " << friction;
-      EXPECT_LE(found.iterations, 50) << rows << " " << friction;
+      EXPECT_LE(found.iterations, 45) << rows << " " << friction;
     }
 }
 
