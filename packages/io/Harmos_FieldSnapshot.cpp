@@ -2,6 +2,7 @@
 #include <Harmos_FieldSnapshot.hpp>
 
 #include <Harmos_EquationOfState.hpp>
+#include <Harmos_OnHost.hpp>
 
 #include <detail/Harmos_InterfaceSegments.hpp>
 
@@ -13,12 +14,6 @@ namespace Harmos
 
 namespace
 {
-
-template <class V>
-auto onHost(V const &view)
-{
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
 
 /// Host copies of what the snapshot reads.
 struct HostState

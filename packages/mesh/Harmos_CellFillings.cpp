@@ -51,12 +51,7 @@ CandidateCells candidateCells(Mesh const &mesh, std::vector<Box> const &boxes)
 {
   if (boxes.empty())
     return {View<int *>("Harmos::paint::cell", 0), View<double *[4][2]>("Harmos::paint::corner", 0)};
-  View<Box *> box("Harmos::paint::boxes", boxes.size());
-  auto const host_box = Kokkos::create_mirror_view(box);
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    host_box(i) = boxes[i];
-  Kokkos::deep_copy(box, host_box);
-
+  View<Box *> const box = deviceCopy("Harmos::paint::boxes", boxes);
   int const num_boxes = static_cast<int>(boxes.size());
   View<int *> position("Harmos::paint::position", mesh.num_cells + 1);
   int count = 0;

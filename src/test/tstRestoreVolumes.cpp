@@ -37,25 +37,15 @@ struct Scene
       offset.push_back(static_cast<int>(material.size()));
     }
     pairs.num_pairs = static_cast<int>(f.size());
-    pairs.offset = copy("offset", offset);
-    pairs.material = copy("material", material);
-    pairs.cell = copy("cell", cell);
+    pairs.offset = deviceCopy("offset", offset);
+    pairs.material = deviceCopy("material", material);
+    pairs.cell = deviceCopy("cell", cell);
     record = View<double *[num_pair_fields]>("record", f.size());
     auto host = Kokkos::create_mirror_view(record);
     for (std::size_t i = 0; i < f.size(); ++i)
       host(i, VolumeFraction) = f[i];
     Kokkos::deep_copy(record, host);
     buildDofNodes(mesh, Kinematics::Xfem, record, pairs);
-  }
-
-  static View<int *> copy(std::string const &label, std::vector<int> const &values)
-  {
-    View<int *> view(label, values.size());
-    auto host = Kokkos::create_mirror_view(view);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      host(i) = values[i];
-    Kokkos::deep_copy(view, host);
-    return view;
   }
 
   std::vector<double> volumes() const { return materialVolumes(mesh, pairs, record, 2, exchange); }

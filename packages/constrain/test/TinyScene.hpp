@@ -229,29 +229,18 @@ private:
       }
     }
     pairs.num_pairs = static_cast<int>(material.size());
-    pairs.offset = toView("offset", offset);
-    pairs.material = toView("material", material);
-    pairs.cell = toView("cell", cell);
+    pairs.offset = deviceCopy("offset", offset);
+    pairs.material = deviceCopy("material", material);
+    pairs.cell = deviceCopy("cell", cell);
     record = View<double *[num_pair_fields]>("record", pairs.num_pairs);
     auto const host_record = Kokkos::create_mirror_view(record);
     for (int i = 0; i < pairs.num_pairs; ++i)
       host_record(i, VolumeFraction) = fraction[static_cast<std::size_t>(i)];
     Kokkos::deep_copy(record, host_record);
     regions.num_mixed_cells = static_cast<int>(mixed.size());
-    regions.mixed_cell = toView("mixed", mixed);
-    regions.cell_region = toView("cell_region", cell_region);
-    regions.polygon = toView("polygon", polygon);
-  }
-
-  template <class T>
-  static View<T *> toView(std::string const &label, std::vector<T> const &values)
-  {
-    View<T *> const view(label, values.size());
-    auto const host = Kokkos::create_mirror_view(view);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      host(i) = values[i];
-    Kokkos::deep_copy(view, host);
-    return view;
+    regions.mixed_cell = deviceCopy("mixed", mixed);
+    regions.cell_region = deviceCopy("cell_region", cell_region);
+    regions.polygon = deviceCopy("polygon", polygon);
   }
 
   void lump(std::vector<double> const &density)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Launch.hpp>
+#include <Harmos_OnHost.hpp>
 
 #include <gtest/gtest.h>
 
@@ -7,11 +8,6 @@ using namespace Harmos;
 
 namespace
 {
-
-HostView<int *> onHost(View<int *> const &view)
-{
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
 
 /// 3, 4, 5, ...
 View<int *> countedFrom3(int count)

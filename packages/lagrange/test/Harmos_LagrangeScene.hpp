@@ -5,6 +5,7 @@
 #include <Harmos_HostMesh.hpp>
 #include <Harmos_Lagrange.hpp>
 #include <Harmos_MeshBuilder.hpp>
+#include <Harmos_OnHost.hpp>
 
 #include <gtest/gtest.h>
 
@@ -17,14 +18,6 @@ namespace Harmos
 {
 namespace Test
 {
-
-template <class ViewType>
-auto onHost(ViewType const &view)
-{
-  auto mirror = Kokkos::create_mirror_view(view);
-  Kokkos::deep_copy(mirror, view);
-  return mirror;
-}
 
 struct Fill
 {
@@ -171,13 +164,9 @@ inline Scene makeScene(int nx, int ny, double distort, std::vector<Material> con
   Scene s;
   s.mesh = buildMesh(host);
   setGeometry(s.mesh, geometry);
-  s.materials = View<Material *>("materials", materials.size());
-  auto const law = Kokkos::create_mirror_view(s.materials);
-  for (std::size_t m = 0; m < materials.size(); ++m)
-    law(m) = materials[m];
-  Kokkos::deep_copy(s.materials, law);
+  s.materials = deviceCopy("materials", materials);
 
-  std::vector<int> offset(1, 0), cell;
+  std::vector<int> offset(1, 0), cell, number;
   std::vector<Fill> fill;
   for (int c = 0; c < nx * ny; ++c)
   {
@@ -185,46 +174,32 @@ inline Scene makeScene(int nx, int ny, double distort, std::vector<Material> con
     {
       fill.push_back(f);
       cell.push_back(c);
+      number.push_back(f.material);
     }
     offset.push_back(static_cast<int>(fill.size()));
   }
   int const n = static_cast<int>(fill.size());
   s.pairs.num_pairs = n;
-  s.pairs.offset = View<int *>("offset", offset.size());
-  s.pairs.material = View<int *>("material", n);
-  s.pairs.cell = View<int *>("cell", n);
+  s.pairs.offset = deviceCopy("offset", offset);
+  s.pairs.material = deviceCopy("material", number);
+  s.pairs.cell = deviceCopy("cell", cell);
   s.state.record = View<double *[num_pair_fields]>("record", n);
-  auto const o = Kokkos::create_mirror_view(s.pairs.offset);
-  auto const m = Kokkos::create_mirror_view(s.pairs.material);
-  auto const c = Kokkos::create_mirror_view(s.pairs.cell);
   auto const r = Kokkos::create_mirror_view(s.state.record);
   auto const volume = onHost(s.mesh.cell_volume);
-  for (std::size_t i = 0; i < offset.size(); ++i)
-    o(i) = offset[i];
   for (int pair = 0; pair < n; ++pair)
   {
     Material const &material = materials[fill[pair].material];
-    m(pair) = fill[pair].material;
-    c(pair) = cell[pair];
     r(pair, Mass) = material.density0 * fill[pair].volume_fraction * volume(cell[pair]);
     r(pair, VolumeFraction) = fill[pair].volume_fraction;
     r(pair, SpecificVolume) = 1.0 / material.density0;
   }
-  Kokkos::deep_copy(s.pairs.offset, o);
-  Kokkos::deep_copy(s.pairs.material, m);
-  Kokkos::deep_copy(s.pairs.cell, c);
   Kokkos::deep_copy(s.state.record, r);
   s.dof_nodes = buildDofNodes(s.mesh, kinematics, s.state.record, s.pairs);
   s.state.velocity = View<double *[2]>("velocity", s.dof_nodes.num_dof_nodes);
-  View<Boundary *> const boundary("boundary", 4);
-  auto const b = Kokkos::create_mirror_view(boundary);
+  std::vector<Boundary> boundary(4);
   for (int k = 0; k < 4; ++k)
-  {
-    b(k) = Boundary();
-    b(k).kind = kinds[k];
-  }
-  Kokkos::deep_copy(boundary, b);
-  s.boundary = buildBoundaryConditions(s.mesh, boundary);
+    boundary[k].kind = kinds[k];
+  s.boundary = buildBoundaryConditions(s.mesh, deviceCopy("boundary", boundary));
   prepareWork(s.pairs, s.dof_nodes, s.work);
   // exact extents here, so that whole views can be copied
   Kokkos::resize(s.work.half, s.dof_nodes.num_dof_nodes);

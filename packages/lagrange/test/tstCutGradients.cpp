@@ -38,7 +38,7 @@ struct CutCell
   /// Integral over the region of (r) d N_I / dx_d, with N_I added for d = 0 about an axis.
   double integral(Region const &region, int corner, int d) const
   {
-    auto const g = Harmos::Test::onHost(cut.gradient);
+    auto const g = Harmos::onHost(cut.gradient);
     detail::Corners<double> const c = detail::cellCorners(mesh, 0);
     double mean;
     if (mesh.geometry == Geometry::Axisymmetric)
@@ -103,7 +103,7 @@ auto gradientsOf(std::vector<Region> const &parts, Material const &material, Cut
   CutGradients cut;
   computeCutGradients(mesh, pairs, regions, deviceCopy("materials", std::vector<Material>(parts.size(), material)),
                       where, cut);
-  return Harmos::Test::onHost(cut.gradient);
+  return Harmos::onHost(cut.gradient);
 }
 
 } // namespace
@@ -165,7 +165,7 @@ TEST(CutGradients, ofAWholeCellAreNothingBeyondItsMean)
   for (Geometry const geometry : {Geometry::Planar, Geometry::Axisymmetric})
   {
     CutCell const cell(geometry, whole);
-    auto const g = Harmos::Test::onHost(cell.cut.gradient);
+    auto const g = Harmos::onHost(cell.cut.gradient);
     for (int k = 0; k < 12; ++k)
       EXPECT_NEAR(g(0, k), 0.0, 1e-13);
   }
@@ -176,7 +176,7 @@ TEST(CutGradients, ofAThreadAndOfNothingAreFinite)
   for (Geometry const geometry : {Geometry::Planar, Geometry::Axisymmetric})
     for (Region const &part : {polygon({{2.0, 1.0}, {2.0, 1.0}, {2.0, 1.3}}), polygon({})})
     {
-      auto const g = Harmos::Test::onHost(CutCell(geometry, part).cut.gradient);
+      auto const g = Harmos::onHost(CutCell(geometry, part).cut.gradient);
       for (int k = 0; k < 12; ++k)
         EXPECT_TRUE(std::isfinite(g(0, k)));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_MeshBuilder.hpp>
+#include <Harmos_OnHost.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,22 +12,6 @@ namespace
 {
 
 using namespace Harmos;
-
-template <class V>
-auto onHost(V const &view)
-{
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
-
-View<Boundary *> boundaries(std::vector<Boundary> const &list)
-{
-  View<Boundary *> result("boundaries", list.size());
-  auto host = Kokkos::create_mirror_view(result);
-  for (std::size_t i = 0; i < list.size(); ++i)
-    host(i) = list[i];
-  Kokkos::deep_copy(result, host);
-  return result;
-}
 
 Boundary ofKind(BoundaryKind kind, Vector2 velocity = {0.0, 0.0})
 {
@@ -39,7 +24,7 @@ Boundary ofKind(BoundaryKind kind, Vector2 velocity = {0.0, 0.0})
 /// Conditions by node number; a count of zero where there is none.
 std::vector<NodeCondition> conditionsOf(Mesh const &mesh, std::vector<Boundary> const &list)
 {
-  BoundaryConditions const conditions = buildBoundaryConditions(mesh, boundaries(list));
+  BoundaryConditions const conditions = buildBoundaryConditions(mesh, deviceCopy("boundary", list));
   auto const index = onHost(conditions.node_index);
   auto const condition = onHost(conditions.condition);
   std::vector<NodeCondition> result(mesh.num_nodes);
@@ -186,7 +171,8 @@ TEST(BuildBoundaryConditions, edgeOfTheHalo_isNoBoundary)
 
 TEST(BuildBoundaryConditions, boundaryNumberWithoutABoundary_isRefused)
 {
-  EXPECT_THROW(buildBoundaryConditions(fourCells(), boundaries(std::vector<Boundary>(3))), std::runtime_error);
+  EXPECT_THROW(buildBoundaryConditions(fourCells(), deviceCopy("boundary", std::vector<Boundary>(3))),
+               std::runtime_error);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_NodeEnds.hpp>
+#include <Harmos_OnHost.hpp>
 
 #include <gtest/gtest.h>
 
@@ -13,12 +14,6 @@ namespace
 {
 
 using namespace Harmos;
-
-template <class V>
-auto onHost(V const &view)
-{
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
 
 std::vector<double> uniform(int cells)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_MeshBuilder.hpp>
+#include <Harmos_OnHost.hpp>
 #include <Harmos_Paint.hpp>
 
 #include <gtest/gtest.h>
@@ -12,12 +13,6 @@ using namespace Harmos;
 
 namespace
 {
-
-template <class V>
-auto onHost(V const &view)
-{
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
 
 /// n x n cells on the unit square.
 HostMesh unitSquare(int n)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_MeshBuilder.hpp>
+#include <Harmos_OnHost.hpp>
 #include <Harmos_Partition.hpp>
 #include <Harmos_StateExchange.hpp>
 #include <Harmos_TpetraExchange.hpp>
@@ -17,12 +18,6 @@ namespace
 using namespace Harmos;
 
 constexpr int nx = 17, ny = 15;
-
-template <class V>
-auto onHost(V const &view)
-{
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
 
 /// The truth, by global numbers: materials of a cell, a pair's record, a dof node's velocity.
 bool present(long long cell, int material)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_MeshBuilder.hpp>
+#include <Harmos_OnHost.hpp>
 #include <Harmos_Partition.hpp>
 #include <Harmos_TpetraExchange.hpp>
 
@@ -43,12 +44,6 @@ struct Setting
     mesh = buildLocalMesh(whole, owner, comm->getRank(), comm->getSize() > 1 ? halo : 0);
   }
 };
-
-template <class V>
-auto onHost(V const &view)
-{
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
 
 /// Room for the rows of a list of cells, of which a cell has count(its global number).
 template <class Count>

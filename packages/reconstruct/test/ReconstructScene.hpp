@@ -3,7 +3,9 @@
 #define HARMOS_TEST_RECONSTRUCT_SCENE_HPP
 
 #include <Harmos_Clip.hpp>
+#include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Moments.hpp>
+#include <Harmos_OnHost.hpp>
 #include <Harmos_Reconstruct.hpp>
 
 #include <algorithm>
@@ -18,63 +20,16 @@ namespace Harmos::Testing
 /// [0, 1]^2 times (nx, ny) h in nx x ny cells; inner nodes are moved at random by up to `shake` h per coordinate.
 inline Mesh makeMesh(int nx, int ny, double h, double shake = 0.0, unsigned seed = 1)
 {
-  Mesh mesh;
-  mesh.num_cells = mesh.num_owned_cells = nx * ny;
-  mesh.num_nodes = (nx + 1) * (ny + 1);
-  mesh.node_position = View<double *[2]>("node_position", mesh.num_nodes);
-  mesh.cell_node = View<int *[4]>("cell_node", mesh.num_cells);
-  mesh.cell_area = View<double *>("cell_area", mesh.num_cells);
-  mesh.face_neighbour = View<int *[4]>("face_neighbour", mesh.num_cells);
-  mesh.cell_depth = View<int *>("cell_depth", mesh.num_cells);
-  mesh.cell_neighbour.offset = View<int *>("offset", mesh.num_cells + 1);
-  mesh.cell_neighbour.item = View<int *>("item", 8 * mesh.num_cells);
-  auto const x = Kokkos::create_mirror_view(mesh.node_position);
-  auto const node = Kokkos::create_mirror_view(mesh.cell_node);
-  auto const cell_area = Kokkos::create_mirror_view(mesh.cell_area);
-  auto const face = Kokkos::create_mirror_view(mesh.face_neighbour);
-  auto const offset = Kokkos::create_mirror_view(mesh.cell_neighbour.offset);
-  auto const item = Kokkos::create_mirror_view(mesh.cell_neighbour.item);
+  HostMesh host = rectilinearMesh(gradedCoordinates(0.0, nx, nx, 1.0), gradedCoordinates(0.0, ny, ny, 1.0));
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-shake, shake);
-  for (int j = 0; j <= ny; ++j)
-    for (int i = 0; i <= nx; ++i)
-    {
-      bool const inner = i > 0 && i < nx && j > 0 && j < ny;
-      x(j * (nx + 1) + i, 0) = h * (i + (inner ? uniform(random) : 0.0));
-      x(j * (nx + 1) + i, 1) = h * (j + (inner ? uniform(random) : 0.0));
-    }
-  int count = 0;
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i)
-    {
-      int const cell = j * nx + i;
-      int const first = j * (nx + 1) + i;
-      int const corner[4] = {first, first + 1, first + nx + 2, first + nx + 1};
-      Quadrilateral quad;
-      for (int k = 0; k < 4; ++k)
-      {
-        node(cell, k) = corner[k];
-        quad.push({x(corner[k], 0), x(corner[k], 1)});
-      }
-      cell_area(cell) = area(quad);
-      face(cell, 0) = j > 0 ? 4 * (cell - nx) + 2 : -1;
-      face(cell, 1) = i + 1 < nx ? 4 * (cell + 1) + 3 : -1;
-      face(cell, 2) = j + 1 < ny ? 4 * (cell + nx) + 0 : -1;
-      face(cell, 3) = i > 0 ? 4 * (cell - 1) + 1 : -1;
-      offset(cell) = count;
-      for (int b = j - 1; b <= j + 1; ++b)
-        for (int a = i - 1; a <= i + 1; ++a)
-          if (a >= 0 && a < nx && b >= 0 && b < ny && (a != i || b != j))
-            item(count++) = b * nx + a;
-    }
-  offset(mesh.num_cells) = count;
-  Kokkos::deep_copy(mesh.node_position, x);
-  Kokkos::deep_copy(mesh.cell_node, node);
-  Kokkos::deep_copy(mesh.cell_area, cell_area);
-  Kokkos::deep_copy(mesh.face_neighbour, face);
-  Kokkos::deep_copy(mesh.cell_neighbour.offset, offset);
-  Kokkos::deep_copy(mesh.cell_neighbour.item, item);
-  return mesh;
+  for (auto &node : host.node)
+  {
+    bool const inner = node[0] > 0.0 && node[0] < nx && node[1] > 0.0 && node[1] < ny;
+    for (double &x : node)
+      x = h * (x + (inner ? uniform(random) : 0.0));
+  }
+  return buildMesh(host);
 }
 
 /// A mesh about the axis, or far from it (r from `left` on).
@@ -82,7 +37,7 @@ inline Mesh ringMesh(int n, double left, double shake, unsigned seed)
 {
   Mesh mesh = makeMesh(n, n, 1.0 / n, shake, seed);
   mesh.geometry = Geometry::Axisymmetric;
-  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
+  auto const x = onHost(mesh.node_position);
   for (int node = 0; node < mesh.num_nodes; ++node)
     x(node, 0) += left;
   Kokkos::deep_copy(mesh.node_position, x);
@@ -118,9 +73,9 @@ inline Quadrilateral hostQuadrilateral(HostView<double *[2]> const &x, HostView<
 /// whole cell makes it pure.
 inline Scene paint(Mesh const &mesh, CellFills const &fills)
 {
-  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
-  auto const node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_node);
-  std::vector<int> offset{0}, cell_of, kind;
+  auto const x = onHost(mesh.node_position);
+  auto const node = onHost(mesh.cell_node);
+  std::vector<int> offset{0}, material, cell_of, kind;
   std::vector<Fill> all;
   std::vector<double> fraction;
   for (int cell = 0; cell < mesh.num_cells; ++cell)
@@ -136,6 +91,7 @@ inline Scene paint(Mesh const &mesh, CellFills const &fills)
       pure = fill.volume >= (1.0 - 1e-14) * whole;
       all.push_back(fill);
       fraction.push_back(pure ? 1.0 : fill.volume / whole);
+      material.push_back(fill.material);
       cell_of.push_back(cell);
       ++count;
     }
@@ -146,36 +102,22 @@ inline Scene paint(Mesh const &mesh, CellFills const &fills)
   Scene scene;
   scene.mesh = mesh;
   scene.pairs.num_pairs = num_pairs;
-  scene.pairs.offset = View<int *>("offset", mesh.num_cells + 1);
-  scene.pairs.material = View<int *>("material", num_pairs);
-  scene.pairs.cell = View<int *>("cell", num_pairs);
-  scene.pairs.cell_kind = View<int *>("cell_kind", mesh.num_cells);
+  scene.pairs.offset = deviceCopy("offset", offset);
+  scene.pairs.material = deviceCopy("material", material);
+  scene.pairs.cell = deviceCopy("cell", cell_of);
+  scene.pairs.cell_kind = deviceCopy("cell_kind", kind);
   scene.state.record = View<double *[num_pair_fields]>("record", num_pairs);
   scene.state.centroid = View<double *[2]>("centroid", num_pairs);
-  auto const h_offset = Kokkos::create_mirror_view(scene.pairs.offset);
-  auto const h_material = Kokkos::create_mirror_view(scene.pairs.material);
-  auto const h_cell = Kokkos::create_mirror_view(scene.pairs.cell);
-  auto const h_kind = Kokkos::create_mirror_view(scene.pairs.cell_kind);
-  auto const h_record = Kokkos::create_mirror_view(scene.state.record);
-  auto const h_centroid = Kokkos::create_mirror_view(scene.state.centroid);
-  for (int cell = 0; cell <= mesh.num_cells; ++cell)
-    h_offset(cell) = offset[cell];
-  for (int cell = 0; cell < mesh.num_cells; ++cell)
-    h_kind(cell) = kind[cell];
+  auto const record = Kokkos::create_mirror_view(scene.state.record);
+  auto const centroid = Kokkos::create_mirror_view(scene.state.centroid);
   for (int pair = 0; pair < num_pairs; ++pair)
   {
-    h_material(pair) = all[pair].material;
-    h_cell(pair) = cell_of[pair];
-    h_record(pair, VolumeFraction) = fraction[pair];
+    record(pair, VolumeFraction) = fraction[pair];
     for (int d = 0; d < 2; ++d)
-      h_centroid(pair, d) = all[pair].centroid[d];
+      centroid(pair, d) = all[pair].centroid[d];
   }
-  Kokkos::deep_copy(scene.pairs.offset, h_offset);
-  Kokkos::deep_copy(scene.pairs.material, h_material);
-  Kokkos::deep_copy(scene.pairs.cell, h_cell);
-  Kokkos::deep_copy(scene.pairs.cell_kind, h_kind);
-  Kokkos::deep_copy(scene.state.record, h_record);
-  Kokkos::deep_copy(scene.state.centroid, h_centroid);
+  Kokkos::deep_copy(scene.state.record, record);
+  Kokkos::deep_copy(scene.state.centroid, centroid);
   return scene;
 }
 
@@ -224,12 +166,12 @@ inline CellFills bodies(std::vector<Body> const &all, Geometry geometry = Geomet
 inline std::map<int, std::vector<double>> misplacedByCell(Scene const &scene, FilledRegions const &regions,
                                                           std::vector<Body> const &all)
 {
-  auto const mixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.mixed_cell);
-  auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
-  auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
-  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
-  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.material);
-  auto const cell_area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.mesh.cell_area);
+  auto const mixed = onHost(regions.mixed_cell);
+  auto const first = onHost(regions.cell_region);
+  auto const polygon = onHost(regions.polygon);
+  auto const offset = onHost(scene.pairs.offset);
+  auto const material = onHost(scene.pairs.material);
+  auto const cell_area = onHost(scene.mesh.cell_area);
   std::map<int, std::vector<double>> by_cell;
   for (int i = 0; i < regions.num_mixed_cells; ++i)
   {

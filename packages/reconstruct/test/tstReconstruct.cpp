@@ -26,13 +26,7 @@ Result run(Scene const &scene, ReconstructionMethod method, double sliver = 1e-3
   options.method = method;
   options.sliver = sliver;
   if (!order.empty())
-  {
-    options.order = View<int *>("order", order.size());
-    auto const host = Kokkos::create_mirror_view(options.order);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      host(i) = order[i];
-    Kokkos::deep_copy(options.order, host);
-  }
+    options.order = deviceCopy("order", order);
   Result result;
   result.regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, result.report);
   return result;
@@ -170,8 +164,8 @@ TEST(Reconstruct, lineThatCutsASliverOffACell_hasAQuarterOfAVertexNeighbourBehin
     Mesh const mesh =
         makeMesh(i % 4 < 2 ? 5 : 3, 5, 1.0, 0.25, 1 + i); // the inner cells of three columns are near r = 0
     int const columns = i % 4 < 2 ? 5 : 3, own = 2 * columns + columns / 2;
-    auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
-    auto const node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_node);
+    auto const x = onHost(mesh.node_position);
+    auto const node = onHost(mesh.cell_node);
     auto const volumeBehind = [&](int cell, Body const &behind)
     {
       Quadrilateral const quad = hostQuadrilateral(x, node, cell);
@@ -239,7 +233,7 @@ TEST(Reconstruct, bothGradients_areExactForLinearFractionsOnShakenQuads)
           gradient(cell, 2 + d) = fitted[d];
         }
       });
-  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), gradient);
+  auto const host = onHost(gradient);
   for (int cell = 0; cell < mesh.num_cells; ++cell)
     for (int i = 0; i < 4; ++i)
       EXPECT_NEAR(host(cell, i), i % 2 == 0 ? 0.1 : 0.05, 1e-13) << "cell " << cell;

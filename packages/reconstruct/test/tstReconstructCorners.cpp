@@ -28,8 +28,8 @@ double misplaced(Scene const &scene, std::vector<Body> const &all)
 /// Least part that a body fills of a mixed cell, and least part that is void, where there is some.
 void leastParts(Scene const &scene, double &body, double &open)
 {
-  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
-  auto const record = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.state.record);
+  auto const offset = onHost(scene.pairs.offset);
+  auto const record = onHost(scene.state.record);
   body = open = 1.0;
   for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
   {
@@ -113,7 +113,7 @@ TEST(ReconstructCorners, roundBody_keepsStraightLines)
     options.sliver = sliver;
     ReconstructionReport report;
     FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
-    auto const cut = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cut_component);
+    auto const cut = onHost(regions.cut_component);
     for (std::size_t i = 0; i < cut.extent(0); ++i)
       EXPECT_GE(cut(i), 0);
   }
@@ -133,8 +133,8 @@ TEST(ReconstructCorners, fragmentOnAPlane_keepsAStraightLine)
     options.sliver = sliver;
     ReconstructionReport report;
     FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
-    auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
-    auto const cut = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cut_component);
+    auto const first = onHost(regions.cell_region);
+    auto const cut = onHost(regions.cut_component);
     EXPECT_GE(cut(first(3 * 7 + 3)), 0);
   }
 }

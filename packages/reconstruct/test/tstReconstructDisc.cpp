@@ -76,7 +76,7 @@ double symmetricDifference(int n, Vector2 const &centre, ReconstructionMethod me
   ReconstructionReport report;
   FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
   EXPECT_EQ(report.failures, 0);
-  auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
+  auto const polygon = onHost(regions.polygon);
   double misplaced = 0.0;
   for (int i = 0; i < regions.num_mixed_cells; ++i) // one pair each
     misplaced += 2.0 * (area(polygon(i)) - discMoments(polygon(i), disc).volume());
@@ -144,10 +144,10 @@ TEST(ReconstructDisc, thinVoidBetweenDiscAndSocket_bodiesStayOnTheirSides)
     ReconstructionReport report;
     FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, {}, report);
     EXPECT_EQ(report.failures, 0);
-    auto const mixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.mixed_cell);
-    auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
-    auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
-    auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.material);
+    auto const mixed = onHost(regions.mixed_cell);
+    auto const polygon = onHost(regions.polygon);
+    auto const offset = onHost(scene.pairs.offset);
+    auto const material = onHost(scene.pairs.material);
     double worst = 0.0;
     int r = 0; // regions follow the pairs of the mixed cells
     for (int i = 0; i < regions.num_mixed_cells; ++i)

@@ -139,11 +139,11 @@ TEST(ReconstructJunctions, filamentInVoid_keepsItsVolumeInEveryCell)
       for (double const sliver : {0.0, 1e-3, 1.0})
       {
         FilledRegions const regions = momentOfFluid(scene, sliver);
-        auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
-        auto const record = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.state.record);
-        auto const mixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.mixed_cell);
-        auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
-        auto const cell_area = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.mesh.cell_area);
+        auto const polygon = onHost(regions.polygon);
+        auto const record = onHost(scene.state.record);
+        auto const mixed = onHost(regions.mixed_cell);
+        auto const offset = onHost(scene.pairs.offset);
+        auto const cell_area = onHost(scene.mesh.cell_area);
         for (int i = 0; i < regions.num_mixed_cells; ++i)
           EXPECT_NEAR(area(polygon(i)) / cell_area(mixed(i)), record(offset(mixed(i)), VolumeFraction), 1e-13);
       }
@@ -188,10 +188,10 @@ TEST(ReconstructJunctions, tipBeforeAWedgeOfVoid_staysOnItsSide)
     Body const straight{halfPlane(190.0, {2.104, 2.0})};
     Scene const scene = paint(mesh, bodies({round, straight}));
     FilledRegions const regions = momentOfFluid(scene, 1e-3);
-    auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
-    auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
-    auto const centroid = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.state.centroid);
-    auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
+    auto const first = onHost(regions.cell_region);
+    auto const polygon = onHost(regions.polygon);
+    auto const centroid = onHost(scene.state.centroid);
+    auto const offset = onHost(scene.pairs.offset);
     int const cell = 2 * 6 + 2;
     ASSERT_EQ(offset(cell + 1) - offset(cell), 2);
     Region const &region = polygon(first(cell));
@@ -244,9 +244,9 @@ TEST(ReconstructJunctions, cornersThatSlidePastEachOther_areExact)
       Scene const scene = paint(mesh, bodies(all));
       FilledRegions const regions = momentOfFluid(scene, 1e-3);
       int const cell = 3 * 6 + 3;
-      auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
-      auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
-      auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.pairs.offset);
+      auto const first = onHost(regions.cell_region);
+      auto const polygon = onHost(regions.polygon);
+      auto const offset = onHost(scene.pairs.offset);
       ASSERT_EQ(offset(cell + 1) - offset(cell), 2);
       for (int k = 0; k < 2; ++k)
       {
@@ -301,8 +301,8 @@ TEST(ReconstructJunctions, endOfAThread_liesAlongTheFaceThatItMeets)
           {halfPlane(90.0, {0.0, face}), halfPlane(0.0, {right, 0.0}), halfPlane(180.0, {right - width, 0.0})},
           {halfPlane(270.0, {0.0, face})}};
       FilledRegions const regions = momentOfFluid(paint(mesh, bodies(all)), 1e-6);
-      auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
-      auto const polygon = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.polygon);
+      auto const first = onHost(regions.cell_region);
+      auto const polygon = onHost(regions.polygon);
       Region const &end = polygon(first(3 * 7 + 3));
       ASSERT_FALSE(end.empty());
       double reach = 0.0;

@@ -49,7 +49,7 @@ Mesh randomMesh(unsigned seed, int rows)
   Mesh const mesh = makeMesh(400, rows, 0.01, 0.2499 * uniform(random), seed);
   double const stretch = std::pow(10.0, 0.5 * uniform(random)), angle = 2.0 * Math::pi * uniform(random);
   double const shear = 2.0 * uniform(random) - 1.0, c = std::cos(angle), s = std::sin(angle);
-  auto const x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.node_position);
+  auto const x = onHost(mesh.node_position);
   for (int node = 0; node < mesh.num_nodes; ++node)
   {
     double const a = stretch * (x(node, 0) + shear * x(node, 1)), b = x(node, 1) / stretch;
@@ -57,7 +57,7 @@ Mesh randomMesh(unsigned seed, int rows)
     x(node, 1) = s * a + c * b;
   }
   Kokkos::deep_copy(mesh.node_position, x);
-  auto const cell_node = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), mesh.cell_node);
+  auto const cell_node = onHost(mesh.cell_node);
   auto const cell_area = Kokkos::create_mirror_view(mesh.cell_area);
   for (int cell = 0; cell < mesh.num_cells; ++cell)
     cell_area(cell) = area(hostQuadrilateral(x, cell_node, cell));

@@ -61,8 +61,8 @@ Testing::Scene passingCorners(double slip)
 /// The largest distance between vertices of the same number.
 double distance(FilledRegions const &a, FilledRegions const &b)
 {
-  auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), a.polygon);
-  auto const second = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), b.polygon);
+  auto const first = onHost(a.polygon);
+  auto const second = onHost(b.polygon);
   EXPECT_EQ(first.extent(0), second.extent(0));
   double largest = 0.0;
   for (std::size_t i = 0; i < first.extent(0); ++i)
@@ -111,9 +111,9 @@ TEST(Refill, PartedCells_areReconstructed)
   ASSERT_EQ(before.pairs.num_pairs, after.pairs.num_pairs);
   FilledRegions const regions = reconstructed(before);
   int const cell = 6 + 3;
-  auto const first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cell_region);
-  auto const component = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), regions.cut_component);
-  auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), before.pairs.offset);
+  auto const first = onHost(regions.cell_region);
+  auto const component = onHost(regions.cut_component);
+  auto const offset = onHost(before.pairs.offset);
   ASSERT_GE(first(cell), 0);
   EXPECT_EQ(component(first(cell)), -1);
   EXPECT_EQ(component(first(cell) + 1), -1);
@@ -130,9 +130,8 @@ TEST(Refill, PartedCells_areReconstructed)
   Kokkos::deep_copy(closed.state.record, record);
   for (Testing::Scene const &scene : {changed, closed})
   {
-    auto const anew = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), reconstructed(scene).polygon);
-    auto const kept =
-        Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), refilled(before, scene, regions).polygon);
+    auto const anew = onHost(reconstructed(scene).polygon);
+    auto const kept = onHost(refilled(before, scene, regions).polygon);
     for (int k = 0; k < 2; ++k)
     {
       Region const &a = anew(first(cell) + k), &b = kept(first(cell) + k);

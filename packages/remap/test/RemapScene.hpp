@@ -5,6 +5,7 @@
 #include <Harmos_Clip.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Moments.hpp>
+#include <Harmos_OnHost.hpp>
 #include <Harmos_Remap.hpp>
 
 #include <cmath>
@@ -16,14 +17,6 @@ namespace Harmos
 {
 namespace Test
 {
-
-template <class T>
-typename View<T>::HostMirror host(View<T> const &view)
-{
-  auto mirror = Kokkos::create_mirror_view(view);
-  Kokkos::deep_copy(mirror, view);
-  return mirror;
-}
 
 /// One component of a scene: a material (-1: void) on the inner side of the line that what is left of a cell is cut by.
 struct Layer
@@ -102,11 +95,7 @@ struct Scene
                                           b.kind = kind;
                                           return b;
                                         }()));
-    materials = View<Material *>("materials", laws.size());
-    auto const m = Kokkos::create_mirror_view(materials);
-    for (std::size_t i = 0; i < laws.size(); ++i)
-      m(i) = laws[i];
-    Kokkos::deep_copy(materials, m);
+    materials = deviceCopy("materials", laws);
   }
 
   /// The same mesh, x the radius.
@@ -131,11 +120,7 @@ struct Scene
   {
     mesh = owner.empty() ? buildMesh(host_mesh) : buildLocalMesh(host_mesh, owner, 0, halo);
     setGeometry(mesh, geometry);
-    boundary = View<Boundary *>("boundary", kinds.size());
-    auto const b = Kokkos::create_mirror_view(boundary);
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-      b(i) = kinds[i];
-    Kokkos::deep_copy(boundary, b);
+    boundary = deviceCopy("boundary", kinds);
     conditions = buildBoundaryConditions(mesh, boundary);
   }
 
@@ -226,30 +211,17 @@ private:
   void setPairs(std::vector<int> const &offset, std::vector<int> const &material, std::vector<int> const &cell_of)
   {
     pairs.num_pairs = static_cast<int>(material.size());
-    pairs.offset = View<int *>("offset", offset.size());
-    pairs.material = View<int *>("material", material.size());
-    pairs.cell = View<int *>("cell", material.size());
-    for (std::size_t i = 0; i < offset.size(); ++i)
-      pairs.offset(i) = offset[i];
-    for (std::size_t i = 0; i < material.size(); ++i)
-    {
-      pairs.material(i) = material[i];
-      pairs.cell(i) = cell_of[i];
-    }
+    pairs.offset = deviceCopy("offset", offset);
+    pairs.material = deviceCopy("material", material);
+    pairs.cell = deviceCopy("cell", cell_of);
   }
 
   void setRegions(std::vector<int> const &first, std::vector<int> const &mixed, std::vector<Region> const &polygon)
   {
     regions.num_mixed_cells = static_cast<int>(mixed.size());
-    regions.mixed_cell = View<int *>("mixed", mixed.size());
-    regions.cell_region = View<int *>("first", first.size());
-    regions.polygon = View<Region *>("polygon", polygon.size());
-    for (std::size_t i = 0; i < mixed.size(); ++i)
-      regions.mixed_cell(i) = mixed[i];
-    for (std::size_t i = 0; i < first.size(); ++i)
-      regions.cell_region(i) = first[i];
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-      regions.polygon(i) = polygon[i];
+    regions.mixed_cell = deviceCopy("mixed", mixed);
+    regions.cell_region = deviceCopy("first", first);
+    regions.polygon = deviceCopy("polygon", polygon);
   }
 
   void setState(std::vector<Region> const &region, Scalar const &density, Scalar const &energy)

@@ -226,7 +226,7 @@ TEST(Policies, bodiesAlongCurvedSlipWalls_slideAlongThemAndKeepTheirMass)
   EXPECT_NEAR(after.internal, before.internal, 1e-15);
   // Had the walls' nodes been fixed, they would stand still: a fifth of the speed at a wall's cells.
   double worst = 0.0;
-  auto const node = host(result.dof_nodes.node);
+  auto const node = onHost(result.dof_nodes.node);
   for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
   {
     Vector2 const x{scene.mesh.node_position(node(dof), 0), scene.mesh.node_position(node(dof), 1)};
