@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputScene.hpp"
+#include "TestFolder.hpp"
 
 #include <Harmos_Checkpoint.hpp>
 
@@ -16,28 +17,6 @@ namespace
 {
 
 using namespace Harmos;
-
-int rankOf(MPI_Comm comm)
-{
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
-
-/// A folder of its own for each test and number of ranks, empty.
-std::string freshFolder(std::string const &name)
-{
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  std::string const folder = "checkpoint_" + name + '_' + std::to_string(size);
-  if (rankOf(MPI_COMM_WORLD) == 0)
-  {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  return folder;
-}
 
 CheckpointScalars scalarsOf(long long cycle)
 {
@@ -75,7 +54,7 @@ void expectScene(CheckpointState const &got, OutputScene const &want)
 
 TEST(Checkpoint, writtenOnAllRanks_readsBackWithTheSameBits)
 {
-  auto const folder = freshFolder("same");
+  auto const folder = freshFolder("checkpoint_same");
   for (auto kinematics : {Kinematics::Xfem, Kinematics::Single})
   {
     OutputScene scene = outputScene(MPI_COMM_WORLD, Partition::Blocks, kinematics);
@@ -86,7 +65,7 @@ TEST(Checkpoint, writtenOnAllRanks_readsBackWithTheSameBits)
 
 TEST(Checkpoint, writtenOnAllRanks_readsOnAnotherPartitionAndOnOneRank)
 {
-  auto const folder = freshFolder("other");
+  auto const folder = freshFolder("checkpoint_other");
   OutputScene const scene = outputScene(MPI_COMM_WORLD, Partition::Blocks);
   auto const path = writeCheckpoint(MPI_COMM_WORLD, folder, scene.mesh, scene.pairs, scene.state, scalarsOf(7));
   OutputScene other = outputScene(MPI_COMM_WORLD, Partition::RoundRobin);
@@ -97,10 +76,10 @@ TEST(Checkpoint, writtenOnAllRanks_readsOnAnotherPartitionAndOnOneRank)
 
 TEST(Checkpoint, table_isTheSameForEveryNumberOfRanks)
 {
-  auto const folder = freshFolder("table");
+  auto const folder = freshFolder("checkpoint_table");
   OutputScene const scene = outputScene(MPI_COMM_WORLD, Partition::RoundRobin);
   auto const path = writeCheckpoint(MPI_COMM_WORLD, folder, scene.mesh, scene.pairs, scene.state, scalarsOf(7));
-  std::string const self = folder + "/alone_" + std::to_string(rankOf(MPI_COMM_WORLD));
+  std::string const self = folder + "/alone_" + std::to_string(rankOf());
   std::filesystem::create_directories(self);
   OutputScene alone = outputScene(MPI_COMM_SELF, Partition::Blocks);
   auto const own = writeCheckpoint(MPI_COMM_SELF, self, alone.mesh, alone.pairs, alone.state, scalarsOf(7));
@@ -114,7 +93,7 @@ TEST(Checkpoint, table_isTheSameForEveryNumberOfRanks)
 
 TEST(Checkpoint, scalars_readBackExactly)
 {
-  auto const folder = freshFolder("scalars");
+  auto const folder = freshFolder("checkpoint_scalars");
   OutputScene const scene = outputScene(MPI_COMM_WORLD, Partition::Blocks);
   auto const want = scalarsOf(123456);
   auto const path = writeCheckpoint(MPI_COMM_WORLD, folder, scene.mesh, scene.pairs, scene.state, want);
@@ -139,7 +118,7 @@ TEST(Checkpoint, scalars_readBackExactly)
 
 TEST(Checkpoint, lagrangian_movedNodesComeBack)
 {
-  auto const folder = freshFolder("moved");
+  auto const folder = freshFolder("checkpoint_moved");
   OutputScene scene = outputScene(MPI_COMM_WORLD, Partition::Blocks);
   auto const global = scene.mesh.node_global;
   auto const position = scene.mesh.node_position;
@@ -160,7 +139,7 @@ TEST(Checkpoint, lagrangian_movedNodesComeBack)
 
 TEST(Checkpoint, series_keepsTheLastTwoAndForgetsAnAbandonedBranch)
 {
-  auto const folder = freshFolder("series");
+  auto const folder = freshFolder("checkpoint_series");
   OutputScene const scene = outputScene(MPI_COMM_WORLD, Partition::Blocks);
   for (long long cycle : {10, 20, 30, 15})
   {
@@ -194,10 +173,10 @@ std::string errorOf(std::string const &path)
 
 TEST(Checkpoint, missingShortOrDamagedFiles_areNamedInTheError)
 {
-  auto const folder = freshFolder("damaged");
+  auto const folder = freshFolder("checkpoint_damaged");
   OutputScene const scene = outputScene(MPI_COMM_WORLD, Partition::Blocks);
   auto const path = writeCheckpoint(MPI_COMM_WORLD, folder, scene.mesh, scene.pairs, scene.state, scalarsOf(1));
-  if (rankOf(MPI_COMM_WORLD) == 0)
+  if (rankOf() == 0)
   {
     EXPECT_EQ(errorOf(path), "");
     EXPECT_NE(errorOf(folder + "/none.h5").find("none.h5': missing"), std::string::npos);
@@ -225,7 +204,7 @@ TEST(Checkpoint, missingShortOrDamagedFiles_areNamedInTheError)
 
 TEST(Checkpoint, ofAnotherMesh_isRefused)
 {
-  auto const folder = freshFolder("mesh");
+  auto const folder = freshFolder("checkpoint_mesh");
   OutputScene const scene = outputScene(MPI_COMM_WORLD, Partition::Blocks);
   auto const path = writeCheckpoint(MPI_COMM_WORLD, folder, scene.mesh, scene.pairs, scene.state, scalarsOf(1));
   Mesh other = buildMesh(rectilinearMesh({0, 1, 2}, {0, 1}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputScene.hpp"
 #include "SmallDisk.hpp"
+#include "TestFolder.hpp"
 
 #include <Harmos_FieldOutput.hpp>
 #include <Harmos_History.hpp>
@@ -20,30 +21,6 @@ namespace
 {
 
 using namespace Harmos;
-
-int rankOf()
-{
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-std::string folderOf(std::string const &name)
-{
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return name + '_' + std::to_string(size);
-}
-
-void freshFolder(std::string const &folder)
-{
-  if (rankOf() == 0)
-  {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-}
 
 FieldSnapshot snapshotOf(Partition partition, MPI_Comm comm = MPI_COMM_WORLD)
 {
@@ -122,8 +99,7 @@ TEST(FieldSnapshot, regionsOfPairs_fillTheirVolumeFractions)
 
 TEST(FieldOutput, file_isTheSameForEveryPartition)
 {
-  std::string const folder = folderOf("field_order");
-  freshFolder(folder);
+  std::string const folder = freshFolder("field_order");
   FieldOutput output(MPI_COMM_WORLD, folder, {"copper", "anvil"});
   output.write(0, 0.0, snapshotOf(Partition::RoundRobin));
   MPI_Barrier(MPI_COMM_WORLD);
@@ -150,8 +126,7 @@ TEST(FieldOutput, file_isTheSameForEveryPartition)
 
 TEST(FieldOutput, restart_listsTheOldOutputsAndForgetsLaterOnes)
 {
-  std::string const folder = folderOf("field_restart");
-  freshFolder(folder);
+  std::string const folder = freshFolder("field_restart");
   auto const snapshot = snapshotOf(Partition::Blocks);
   {
     FieldOutput output(MPI_COMM_WORLD, folder, {"copper", "anvil"}, {true});
@@ -201,8 +176,7 @@ TEST(Hdf5File, onAFullDisk_saysWhyAndLeavesNothingToTheEndOfTheProgram)
 // Leaves the folder that the test of the plot script draws from.
 TEST(FieldOutput, runFolder_holdsFieldsAndHistory)
 {
-  std::string const folder = folderOf("field_run");
-  freshFolder(folder);
+  std::string const folder = freshFolder("field_run");
   {
     FieldOutput output(MPI_COMM_WORLD, folder, {"copper", "anvil"}, {true});
     History history(folder + "/history.csv", {"copper", "anvil"}, rankOf() == 0);

@@ -4,6 +4,8 @@
 
 #include <Harmos_Material.hpp>
 
+#include <cmath>
+
 namespace Harmos
 {
 namespace Test
@@ -27,6 +29,18 @@ inline Material stiff()
 {
   Material m = copper();
   m.eos = EosKind::Stiffened;
+  return m;
+}
+
+/// Melosh, Impact Cratering (1989), appendix II.
+inline Material tillotsonAluminium()
+{
+  Material m;
+  m.eos = EosKind::Tillotson;
+  m.density0 = 2700.0;
+  m.tillotson = {0.5, 1.63, 75.2e9, 65.0e9, 5.0, 5.0, 5.0e6, 3.0e6, 13.9e6};
+  m.sound_speed0 = std::sqrt(75.2e9 / 2700.0);
+  m.gruneisen = 2.13;
   return m;
 }
 

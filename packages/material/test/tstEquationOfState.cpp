@@ -12,18 +12,6 @@ using namespace Harmos::Test;
 namespace
 {
 
-/// Melosh, Impact Cratering (1989), appendix II.
-Material tillotsonAluminium()
-{
-  Material m;
-  m.eos = EosKind::Tillotson;
-  m.density0 = 2700.0;
-  m.tillotson = {0.5, 1.63, 75.2e9, 65.0e9, 5.0, 5.0, 5.0e6, 3.0e6, 13.9e6};
-  m.sound_speed0 = std::sqrt(75.2e9 / 2700.0);
-  m.gruneisen = 2.13;
-  return m;
-}
-
 Material gas()
 {
   Material m;

@@ -121,12 +121,7 @@ TEST(Temperature, BeyondItsSeries_staysFiniteAndGrowsWithEnergy)
 
 TEST(Temperature, TillotsonAtLowEnergy_obeysMaxwellsRelation)
 {
-  Material m;
-  m.eos = EosKind::Tillotson;
-  m.density0 = 2700.0;
-  m.tillotson = {0.5, 1.63, 75.2e9, 65.0e9, 5.0, 5.0, 5.0e6, 3.0e6, 13.9e6};
-  m.sound_speed0 = std::sqrt(75.2e9 / 2700.0);
-  m.gruneisen = 2.13;
+  Material m = tillotsonAluminium();
   setThermalCurve(m, 890.0, 300.0);
   EXPECT_NEAR(temperature(m, 1.0 / m.density0, 0.0), 300.0, 1e-10);
   // gamma falls with e / E0, and the error with it

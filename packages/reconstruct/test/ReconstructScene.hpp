@@ -8,6 +8,8 @@
 #include <Harmos_OnHost.hpp>
 #include <Harmos_Reconstruct.hpp>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -160,6 +162,25 @@ inline CellFills bodies(std::vector<Body> const &all, Geometry geometry = Geomet
     }
     return fills;
   };
+}
+
+/// Filled regions of a scene in which no cell fails and no interface is left unfinished.
+inline FilledRegions reconstructed(Scene const &scene, double sliver = ReconstructionOptions().sliver,
+                                   ReconstructionMethod method = ReconstructionMethod::MomentOfFluid)
+{
+  ReconstructionOptions options;
+  options.method = method;
+  options.sliver = sliver;
+  ReconstructionReport report;
+  FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
+  EXPECT_EQ(report.failures, 0);
+  EXPECT_EQ(report.unfinished_cells, 0);
+  return regions;
+}
+
+inline Plane2 opposite(Plane2 const &plane)
+{
+  return {-plane.normal, -plane.offset};
 }
 
 /// By mixed cell: |region outside its body| / |cell| (with exact volumes half the symmetric difference) of its pairs.

@@ -32,11 +32,6 @@ Result run(Scene const &scene, ReconstructionMethod method, double sliver = 1e-3
   return result;
 }
 
-Plane2 opposite(Plane2 const &plane)
-{
-  return {-plane.normal, -plane.offset};
-}
-
 Vector2 randomPoint(std::mt19937 &random, double size)
 {
   std::uniform_real_distribution<double> uniform(0.3 * size, 0.7 * size);

@@ -16,13 +16,7 @@ constexpr double sliver = 1e-6, film = 1e-3;
 
 double misplaced(Scene const &scene, std::vector<Body> const &all)
 {
-  ReconstructionOptions options;
-  options.sliver = sliver;
-  ReconstructionReport report;
-  FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
-  EXPECT_EQ(report.failures, 0);
-  EXPECT_EQ(report.unfinished_cells, 0);
-  return misplacedVolume(scene, regions, all);
+  return misplacedVolume(scene, reconstructed(scene, sliver), all);
 }
 
 /// Least part that a body fills of a mixed cell, and least part that is void, where there is some.
@@ -109,10 +103,7 @@ TEST(ReconstructCorners, roundBody_keepsStraightLines)
     for (double degrees = 1.0; degrees < 360.0; degrees += 1.0)
       round.push_back(halfPlane(degrees, Vector2{0.51, 0.47} + radius * halfPlane(degrees, {0.0, 0.0}).normal));
     Scene const scene = paint(mesh, bodies({round}));
-    ReconstructionOptions options;
-    options.sliver = sliver;
-    ReconstructionReport report;
-    FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
+    FilledRegions const regions = reconstructed(scene, sliver);
     auto const cut = onHost(regions.cut_component);
     for (std::size_t i = 0; i < cut.extent(0); ++i)
       EXPECT_GE(cut(i), 0);
@@ -129,10 +120,7 @@ TEST(ReconstructCorners, fragmentOnAPlane_keepsAStraightLine)
     std::vector<Body> const all{{halfPlane(270.0, plane), halfPlane(steep, tip), halfPlane(180.0 - steep, tip)},
                                 {halfPlane(90.0, plane)}};
     Scene const scene = paint(mesh, bodies(all));
-    ReconstructionOptions options;
-    options.sliver = sliver;
-    ReconstructionReport report;
-    FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
+    FilledRegions const regions = reconstructed(scene, sliver);
     auto const first = onHost(regions.cell_region);
     auto const cut = onHost(regions.cut_component);
     EXPECT_GE(cut(first(3 * 7 + 3)), 0);

@@ -70,12 +70,7 @@ double symmetricDifference(int n, Vector2 const &centre, ReconstructionMethod me
                                 fills.push_back({0, m.volume(), disc.centre + m.centroid()});
                               return fills;
                             });
-  ReconstructionOptions options;
-  options.method = method;
-  options.sliver = sliver;
-  ReconstructionReport report;
-  FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
-  EXPECT_EQ(report.failures, 0);
+  FilledRegions const regions = reconstructed(scene, sliver, method);
   auto const polygon = onHost(regions.polygon);
   double misplaced = 0.0;
   for (int i = 0; i < regions.num_mixed_cells; ++i) // one pair each
@@ -141,9 +136,7 @@ TEST(ReconstructDisc, thinVoidBetweenDiscAndSocket_bodiesStayOnTheirSides)
                                   fills.push_back({1, rest.volume(), disc.centre + rest.centroid()});
                                 return fills;
                               });
-    ReconstructionReport report;
-    FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, {}, report);
-    EXPECT_EQ(report.failures, 0);
+    FilledRegions const regions = reconstructed(scene);
     auto const mixed = onHost(regions.mixed_cell);
     auto const polygon = onHost(regions.polygon);
     auto const offset = onHost(scene.pairs.offset);

@@ -13,22 +13,6 @@ using namespace Harmos::Testing;
 namespace
 {
 
-FilledRegions momentOfFluid(Scene const &scene, double sliver)
-{
-  ReconstructionOptions options;
-  options.sliver = sliver;
-  ReconstructionReport report;
-  FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
-  EXPECT_EQ(report.failures, 0);
-  EXPECT_EQ(report.unfinished_cells, 0);
-  return regions;
-}
-
-Plane2 opposite(Plane2 const &plane)
-{
-  return {-plane.normal, -plane.offset};
-}
-
 /// Three wedges around a point, each a third of the plane; with `with_void` the last one is left empty.
 std::vector<Body> thirds(Vector2 const &point, double degrees, bool with_void)
 {
@@ -63,7 +47,7 @@ TEST(ReconstructJunctions, yOfThreeMaterialsOrTwoAndVoid_onlyItsOwnCellIsNotExac
       Vector2 const point{1.3 + 0.013 * (i % 7), 1.4 + 0.017 * (i % 11)};
       std::vector<Body> const all = thirds(point, 6.1 * i, with_void);
       Scene const scene = paint(mesh, bodies(all));
-      std::pair<double, double> const misplaced = twoWorstCells(scene, momentOfFluid(scene, 0.0), all);
+      std::pair<double, double> const misplaced = twoWorstCells(scene, reconstructed(scene, 0.0), all);
       EXPECT_LT(misplaced.second, 1e-12) << i;
       EXPECT_LT(misplaced.first, 0.1) << i;
       worst = std::max(worst, misplaced.first);
@@ -78,7 +62,7 @@ TEST(ReconstructJunctions, yAtANodeOfTheMesh_isExact)
   {
     std::vector<Body> const all = thirds({3.0, 3.0}, angle, false);
     Scene const scene = paint(mesh, bodies(all));
-    EXPECT_LT(misplacedVolume(scene, momentOfFluid(scene, 0.0), all), 1e-12) << angle;
+    EXPECT_LT(misplacedVolume(scene, reconstructed(scene, 0.0), all), 1e-12) << angle;
   }
 }
 
@@ -93,7 +77,7 @@ TEST(ReconstructJunctions, tOfThreeMaterials_isExactWhateverTheirNumbers)
     std::vector<Body> all{{base}, {opposite(base), side}, {opposite(base), opposite(side)}};
     std::shuffle(all.begin(), all.end(), random);
     Scene const scene = paint(mesh, bodies(all));
-    EXPECT_LT(misplacedVolume(scene, momentOfFluid(scene, 0.0), all), 1e-12) << i;
+    EXPECT_LT(misplacedVolume(scene, reconstructed(scene, 0.0), all), 1e-12) << i;
   }
 }
 
@@ -117,7 +101,7 @@ TEST(ReconstructJunctions, filamentThinnerThanACellBetweenTwoOthers_isExact)
         double const bound[2] = {1e-12, width < 0.01 ? width : 1e-12};
         for (int method = 0; method < 2; ++method)
         {
-          double const misplaced = misplacedVolume(scene, momentOfFluid(scene, method == 0 ? 0.0 : 1.0), all);
+          double const misplaced = misplacedVolume(scene, reconstructed(scene, method == 0 ? 0.0 : 1.0), all);
           EXPECT_LT(misplaced, bound[method]) << "width " << width << " angle " << angle;
           if (width >= 0.01)
             worst[method] = std::max(worst[method], misplaced);
@@ -138,7 +122,7 @@ TEST(ReconstructJunctions, filamentInVoid_keepsItsVolumeInEveryCell)
       Scene const scene = paint(mesh, bodies(all));
       for (double const sliver : {0.0, 1e-3, 1.0})
       {
-        FilledRegions const regions = momentOfFluid(scene, sliver);
+        FilledRegions const regions = reconstructed(scene, sliver);
         auto const polygon = onHost(regions.polygon);
         auto const record = onHost(scene.state.record);
         auto const mixed = onHost(regions.mixed_cell);
@@ -164,7 +148,7 @@ TEST(ReconstructJunctions, fourParallelLayersAndVoid_areExactWhateverTheirNumber
     all[2][0].offset = base.offset + 0.25;
     std::shuffle(all.begin(), all.end(), random);
     Scene const scene = paint(mesh, bodies(all));
-    EXPECT_LT(misplacedVolume(scene, momentOfFluid(scene, 0.0), all), 1e-12) << i;
+    EXPECT_LT(misplacedVolume(scene, reconstructed(scene, 0.0), all), 1e-12) << i;
   }
 }
 
@@ -187,7 +171,7 @@ TEST(ReconstructJunctions, tipBeforeAWedgeOfVoid_staysOnItsSide)
                                                                    std::sin(degrees * Math::pi / 180.0)}));
     Body const straight{halfPlane(190.0, {2.104, 2.0})};
     Scene const scene = paint(mesh, bodies({round, straight}));
-    FilledRegions const regions = momentOfFluid(scene, 1e-3);
+    FilledRegions const regions = reconstructed(scene, 1e-3);
     auto const first = onHost(regions.cell_region);
     auto const polygon = onHost(regions.polygon);
     auto const centroid = onHost(scene.state.centroid);
@@ -217,10 +201,10 @@ TEST(ReconstructJunctions, cornerOnAPlane_isExactFromItsFirstMillionthOn)
     std::vector<Body> const all{{halfPlane(degrees - 90.0, corner), halfPlane(degrees, corner)},
                                 {halfPlane(degrees + 90.0, corner)}};
     Scene const scene = paint(mesh, bodies(all));
-    double const misplaced = misplacedVolume(scene, momentOfFluid(scene, 1e-6), all);
+    double const misplaced = misplacedVolume(scene, reconstructed(scene, 1e-6), all);
     EXPECT_LT(misplaced, 3e-6) << degrees << " degrees, corner " << corner[0] << ' ' << corner[1];
     worst = std::max(worst, misplaced);
-    worst_by_least_squares = std::max(worst_by_least_squares, misplacedVolume(scene, momentOfFluid(scene, 1e-3), all));
+    worst_by_least_squares = std::max(worst_by_least_squares, misplacedVolume(scene, reconstructed(scene, 1e-3), all));
   }
   std::printf("misplaced volume at most %.1e, by least squares %.1e\n", worst, worst_by_least_squares);
 }
@@ -242,7 +226,7 @@ TEST(ReconstructJunctions, cornersThatSlidePastEachOther_areExact)
       std::vector<Body> const all{{halfPlane(degrees - 90.0, corner), halfPlane(degrees, corner)},
                                   {halfPlane(degrees + 90.0, corner), halfPlane(degrees, moved)}};
       Scene const scene = paint(mesh, bodies(all));
-      FilledRegions const regions = momentOfFluid(scene, 1e-3);
+      FilledRegions const regions = reconstructed(scene, 1e-3);
       int const cell = 3 * 6 + 3;
       auto const first = onHost(regions.cell_region);
       auto const polygon = onHost(regions.polygon);
@@ -275,7 +259,7 @@ TEST(ReconstructJunctions, thinVoidsAtAT_lieWhereTheyAre)
         Plane2 const above{-base.normal, -base.offset - gap};
         std::vector<Body> const all{{base}, {above, {side.normal, side.offset - between}}, {above, opposite(side)}};
         Scene const scene = paint(mesh, bodies(all));
-        auto const by_pair = misplacedByCell(scene, momentOfFluid(scene, 1e-6), all).at(3 * 7 + 3);
+        auto const by_pair = misplacedByCell(scene, reconstructed(scene, 1e-6), all).at(3 * 7 + 3);
         double const misplaced = *std::max_element(by_pair.begin(), by_pair.end());
         EXPECT_LT(misplaced, 0.03 * (gap + between)) << degrees << " degrees, gaps " << gap << ' ' << between;
         worst = std::max(worst, misplaced / (gap + between));
@@ -300,7 +284,7 @@ TEST(ReconstructJunctions, endOfAThread_liesAlongTheFaceThatItMeets)
       std::vector<Body> const all{
           {halfPlane(90.0, {0.0, face}), halfPlane(0.0, {right, 0.0}), halfPlane(180.0, {right - width, 0.0})},
           {halfPlane(270.0, {0.0, face})}};
-      FilledRegions const regions = momentOfFluid(paint(mesh, bodies(all)), 1e-6);
+      FilledRegions const regions = reconstructed(paint(mesh, bodies(all)), 1e-6);
       auto const first = onHost(regions.cell_region);
       auto const polygon = onHost(regions.polygon);
       Region const &end = polygon(first(3 * 7 + 3));

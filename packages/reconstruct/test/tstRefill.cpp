@@ -28,14 +28,6 @@ Layers layers(Geometry geometry, double degrees, double middle, double gap)
   return result;
 }
 
-FilledRegions reconstructed(Testing::Scene const &scene)
-{
-  ReconstructionReport report;
-  FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, {}, report);
-  EXPECT_EQ(report.failures, 0);
-  return regions;
-}
-
 /// The pairs and centroids of one scene with the volume fractions of another.
 FilledRegions refilled(Testing::Scene const &before, Testing::Scene const &after, FilledRegions const &regions)
 {

@@ -343,6 +343,28 @@ inline std::vector<Material> twoLaws()
   return {a, b, a};
 }
 
+/// 4 x 4 cells, material 0 at x < 0.4 and a rigid body, material 1, at the rest, which has advanced to x = 0.39.
+inline Scene sceneWithRigidBody(Scalar const &density)
+{
+  std::vector<Material> laws = twoLaws();
+  laws[1].rigid_body = 0;
+  Scene scene(4, 4, 0.0, laws);
+  scene.paint({halfPlane(0, {0.4, 0.0}, 0.0), rest(1)}, density, density);
+  std::vector<int> offset(1, 0);
+  std::vector<double> fraction;
+  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
+  {
+    if (cell % 4 > 0)
+      fraction.push_back(cell % 4 == 1 ? 0.44 : 1.0);
+    offset.push_back(static_cast<int>(fraction.size()));
+  }
+  scene.rigid.offset = deviceCopy("offset", offset);
+  scene.rigid.material = deviceCopy("material", std::vector<int>(fraction.size(), 1));
+  scene.rigid.volume_fraction = deviceCopy("fraction", fraction);
+  scene.rigid.centroid = View<double *[2]>("centroid", fraction.size());
+  return scene;
+}
+
 } // namespace Test
 } // namespace Harmos
 

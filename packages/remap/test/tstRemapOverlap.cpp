@@ -106,31 +106,12 @@ TEST(Overlap, aboutAnAxis_isAVolume)
 
 TEST(Overlap, ofARigidBody_isThatOfItsFilledRegions)
 {
-  std::vector<Material> laws = twoLaws();
-  laws[1].rigid_body = 0;
-  Scene scene(4, 4, 0.0, laws);
+  Scene scene = sceneWithRigidBody(one);
   scene.options.measure_overlap = true;
-  scene.paint({halfPlane(0, {0.4, 0.0}, 0.0), rest(1)}, one, one);
   scene.move(
       [](int material, Vector2 const &x) {
         return x[0] > 0.0 && x[0] < 1.0 && material == 1 ? Vector2{-0.01, 0.0} : Vector2{0.0, 0.0};
       });
-  // The body at its new pose, x > 0.39.
-  scene.rigid.offset = View<int *>("offset", scene.mesh.num_cells + 1);
-  scene.rigid.material = View<int *>("material", 12);
-  scene.rigid.volume_fraction = View<double *>("fraction", 12);
-  scene.rigid.centroid = View<double *[2]>("centroid", 12);
-  int r = 0;
-  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
-  {
-    if (cell % 4 > 0)
-    {
-      scene.rigid.material(r) = 1;
-      scene.rigid.volume_fraction(r) = cell % 4 == 1 ? 0.44 : 1.0;
-      ++r;
-    }
-    scene.rigid.offset(cell + 1) = r;
-  }
   scene.remapped();
   EXPECT_NEAR(scene.report.moved_overlap.volume, 0.01, 1e-15);
   EXPECT_NEAR(scene.report.moved_overlap.largest, 0.04, 1e-14);

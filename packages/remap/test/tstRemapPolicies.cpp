@@ -139,28 +139,8 @@ TEST(Policies, spuriousGap_isClosedWhenSmallAndBookedWhenLarge)
 
 TEST(Policies, rigidBody_takesItsExactVolumeAndPushesNothingOut)
 {
-  std::vector<Material> laws = twoLaws();
-  laws[1].rigid_body = 0;
-  Scene scene(4, 4, 0.0, laws);
-  scene.paint({halfPlane(0, {0.4, 0.0}, 0.0), rest(1)}, one, one);
+  Scene scene = sceneWithRigidBody(one);
   scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
-  // the body has advanced to x = 0.39
-  scene.rigid.offset = View<int *>("offset", scene.mesh.num_cells + 1);
-  scene.rigid.material = View<int *>("material", 12);
-  scene.rigid.volume_fraction = View<double *>("fraction", 12);
-  scene.rigid.centroid = View<double *[2]>("centroid", 12);
-  int r = 0;
-  for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
-  {
-    int const column = cell % 4;
-    if (column > 0)
-    {
-      scene.rigid.material(r) = 1;
-      scene.rigid.volume_fraction(r) = column == 1 ? 0.44 : 1.0;
-      ++r;
-    }
-    scene.rigid.offset(cell + 1) = r;
-  }
   RemapResult const result = scene.remapped();
   EXPECT_NEAR(scene.report.overlap_volume, 0.01, 1e-14);
   EXPECT_LE(largestSumOfFractions(scene.mesh, result), 1.0 + 1e-15);
