@@ -10,7 +10,7 @@ import sys
 import h5py
 import numpy
 
-from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
+from compare import same_on_ranks
 from harness import EXAMPLE, check, clean, harmos, read_columns, run
 from shocks import last_fields
 
@@ -114,12 +114,7 @@ def test_impact_about_the_axis_keeps_axial_momentum_and_is_the_same_on_any_numbe
     check("axial momentum", one.summary["momentum_error"], 1e-13)
     check("mass", one.summary["mass_error"], 1e-13)
     assert max(one["plate.momentum_y"]) > 0.01
-    for n in (2, 4):
-        several = harmos(DECKS / "ring_impact.yaml", common, ranks=n)
-        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
-        worst, column = same_history(one, several)
-        check(f"{n} ranks: history, worst in {column}", worst, ROUND_OFF)
-        clean(several)
+    same_on_ranks(one, DECKS / "ring_impact.yaml", common)
     clean(one)
 
 
@@ -127,10 +122,7 @@ def test_gas_about_the_axis_is_the_same_on_any_number_of_ranks():
     """Wide pure regions: nodes gather by packs in one place and one by one in another, as the ranks cut them."""
     common = {"run/max_cycles": 20, "output/checkpoint/at_end": "true", "output/fields/at_end": "false"}
     one = harmos(DECKS / "blast.yaml", common)
-    for n in (2, 4):
-        several = harmos(DECKS / "blast.yaml", common, ranks=n)
-        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
-        clean(several)
+    same_on_ranks(one, DECKS / "blast.yaml", common)
     clean(one)
 
 
@@ -144,10 +136,7 @@ def test_what_fails_about_the_axis_keeps_the_ledgers_and_is_the_same_on_any_numb
     share = one.last("plate.failed_mass") / one.last("plate.mass")
     print(f"  {100 * share:.1f} per cent of the plate has failed")
     assert 0.01 < share < 0.9 and one.last("sphere.failed_mass") > 0.0
-    for n in (2, 4):
-        several = harmos(DECKS / "ring_impact.yaml", common, ranks=n)
-        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
-        clean(several)
+    same_on_ranks(one, DECKS / "ring_impact.yaml", common)
     clean(one)
 
 

@@ -3,7 +3,7 @@
 import pathlib
 from math import sqrt
 
-from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
+from compare import same_on_ranks
 from harness import check, clean, harmos, read_columns, run
 from sliding_block import SQUEEZE, settings
 
@@ -85,11 +85,7 @@ def test_ranks_agree():
     deck = "sliding_block/deck.yaml"
     block = settings(15.0, (0.31, 0.17), 8, SQUEEZE)
     one = harmos(deck, {**block, **common})
-    for ranks in (2, 4):
-        several = harmos(deck, {**block, **common}, ranks=ranks)
-        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
-        check(f"history on {ranks} ranks", same_history(one, several)[0], ROUND_OFF)
-        clean(several)
+    same_on_ranks(one, deck, {**block, **common})
     clean(one)
 
 

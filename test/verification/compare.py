@@ -5,6 +5,8 @@ from math import sqrt
 import h5py
 import numpy
 
+from harness import check, clean, harmos
+
 # Of the largest value in the run, or of the scale that the column is a small difference of. Sums over cells are made
 # by each rank and then over ranks: another order of additions, some 1e4 of them, each good to 1.1e-16.
 ROUND_OFF = 1e-12
@@ -69,3 +71,14 @@ def same_history(a, b):
             worst, where = difference / scale, column
         assert scale > 0.0 or difference == 0.0, column
     return worst, where
+
+
+def same_on_ranks(one, deck, settings, ranks=(2, 4)):
+    """Run a deck on these numbers of ranks too: the state of run `one` bit for bit, its history to round-off."""
+    for n in ranks:
+        several = harmos(deck, settings, ranks=n)
+        assert several.summary["ranks"] == n
+        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
+        worst, column = same_history(one, several)
+        check(f"{n} ranks: history, worst in {column}", worst, ROUND_OFF)
+        clean(several)

@@ -2,8 +2,8 @@
 """One, two and four ranks give the same answer: the state bit for bit, the sums of the history to round-off."""
 import pathlib
 
-from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
-from harness import check, clean, harmos, run
+from compare import newest_checkpoint, same_on_ranks, same_state
+from harness import clean, harmos, run
 from sliding_block import SQUEEZE, settings
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -18,15 +18,10 @@ COMMON = {
 
 
 def compare(deck, more=None, ranks=(2, 4)):
-    one = harmos(deck, {**(more or {}), **COMMON})
+    setting = {**(more or {}), **COMMON}
+    one = harmos(deck, setting)
     assert one.last("cycle") == CYCLES
-    for n in ranks:
-        several = harmos(deck, {**(more or {}), **COMMON}, ranks=n)
-        assert several.summary["ranks"] == n
-        same_state(newest_checkpoint(one.directory), newest_checkpoint(several.directory))
-        worst, column = same_history(one, several)
-        check(f"{n} ranks: history, worst in {column}", worst, ROUND_OFF)
-        clean(several)
+    same_on_ranks(one, deck, setting, ranks)
     return one
 
 
