@@ -25,51 +25,45 @@ Scene pureRegion(int n, Kinematics kinematics)
   return s;
 }
 
-void count(benchmark::State &bench, Scene const &s)
+template <class Step>
+void measure(benchmark::State &bench, Step const &step)
 {
+  Scene s = pureRegion(static_cast<int>(bench.range(0)), Kinematics::Xfem);
+  for (auto _ : bench)
+    step(s);
   bench.counters["ns/pair"] = benchmark::Counter(
       s.pairs.num_pairs * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void cornerForces(benchmark::State &bench)
 {
-  Scene s = pureRegion(static_cast<int>(bench.range(0)), Kinematics::Xfem);
-  for (auto _ : bench)
-    computeCornerForces(s.mesh, s.pairs, s.state, s.materials, s.options, s.work);
-  count(bench, s);
+  measure(bench, [](Scene &s) { computeCornerForces(s.mesh, s.pairs, s.state, s.materials, s.options, s.work); });
 }
 
 void predict(benchmark::State &bench)
 {
-  Scene s = pureRegion(static_cast<int>(bench.range(0)), Kinematics::Xfem);
-  for (auto _ : bench)
-    predictVelocities(s.mesh, s.pairs, s.dof_nodes, s.state, s.boundary, s.materials, s.options, 1e-3, s.work);
-  count(bench, s);
+  measure(bench,
+          [](Scene &s) {
+            predictVelocities(s.mesh, s.pairs, s.dof_nodes, s.state, s.boundary, s.materials, s.options, 1e-3, s.work);
+          });
 }
 
 void update(benchmark::State &bench)
 {
-  Scene s = pureRegion(static_cast<int>(bench.range(0)), Kinematics::Xfem);
   TimeStepLimit next;
-  for (auto _ : bench)
-    s.update(1e-7, next);
-  count(bench, s);
+  measure(bench, [&next](Scene &s) { s.update(1e-7, next); });
 }
 
 void travel(benchmark::State &bench)
 {
-  Scene s = pureRegion(static_cast<int>(bench.range(0)), Kinematics::Xfem);
-  for (auto _ : bench)
-    limitTravel(s.mesh, s.pairs, s.dof_nodes, s.state, s.boundary, s.materials, s.options, 1e-3, s.work);
-  count(bench, s);
+  measure(bench, [](Scene &s)
+          { limitTravel(s.mesh, s.pairs, s.dof_nodes, s.state, s.boundary, s.materials, s.options, 1e-3, s.work); });
 }
 
 void sumsByMaterial(benchmark::State &bench)
 {
-  Scene s = pureRegion(static_cast<int>(bench.range(0)), Kinematics::Xfem);
-  for (auto _ : bench)
-    benchmark::DoNotOptimize(materialSums(s.mesh, s.pairs, s.state.record, s.state.velocity, 1));
-  count(bench, s);
+  measure(bench, [](Scene &s)
+          { benchmark::DoNotOptimize(materialSums(s.mesh, s.pairs, s.state.record, s.state.velocity, 1)); });
 }
 
 } // namespace
