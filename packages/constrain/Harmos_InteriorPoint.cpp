@@ -8,6 +8,14 @@
 namespace Harmos
 {
 
+namespace
+{
+
+/// Part of the way to the first bound of s or z that a step goes.
+constexpr double way_to_bound = 0.995;
+
+} // namespace
+
 InteriorPoint::InteriorPoint(DualProblem const &problem, ShiftedSystem &system)
     : problem_(problem), system_(system), n_(problem.size()), free_(n_, 1), x_(n_, 0.0), g_(n_), shift_(n_), right_(n_),
       low_change_(n_, 0.0), high_change_(n_, 0.0)
@@ -74,19 +82,20 @@ void InteriorPoint::setStep(double target)
   }
 }
 
-/// The part of the step that keeps all s and z positive, and the changes of z.
+/// The part of the step that keeps s and z of the impulses along n positive, and the changes of all z.
 double InteriorPoint::longestStep(double target)
 {
-  constexpr double part = 0.995;
   double length = 1.0;
   auto const meet = [&](Bound const &bound, int i, double towards, double &change)
   {
     double const s = bound.s[i], z = bound.z[i];
     change = (target - z * towards) / s - z;
+    if (problem_.normal_of[i] >= 0)
+      return;
     if (towards < 0.0)
-      length = std::min(length, -part * s / towards);
+      length = std::min(length, -way_to_bound * s / towards);
     if (change < 0.0)
-      length = std::min(length, -part * z / change);
+      length = std::min(length, -way_to_bound * z / change);
   };
   for (int i = 0; i < n_; ++i)
   {
@@ -98,37 +107,41 @@ double InteriorPoint::longestStep(double target)
   return length;
 }
 
-/// \param mu What the step leaves of the mean product.
-void InteriorPoint::follow(double length, double mu)
+/// Impulses across n, and their z, go as far towards their own bounds as those may.
+/// \param mu What the step leaves of the mean product. \param friction_part Of their way that friction's bounds go.
+void InteriorPoint::follow(double length, double mu, double friction_part)
 {
+  auto const moved = [](double z, double change) { return std::max(z + change, (1.0 - way_to_bound) * z); };
   for (int i = 0; i < n_; ++i)
   {
     if (!free_[i])
       continue;
-    x_[i] += length * step_[i];
-    if (hasLow(i))
-    {
-      low_.s[i] += length * step_[i];
-      low_.z[i] += length * low_change_[i];
-    }
+    double way = length * step_[i];
     if (hasHigh(i))
     {
-      high_.s[i] -= length * step_[i];
-      high_.z[i] += length * high_change_[i];
+      way = std::min(std::max(way, -way_to_bound * low_.s[i]), way_to_bound * high_.s[i]);
+      high_.s[i] -= way;
+      high_.z[i] = moved(high_.z[i], length * high_change_[i]);
+    }
+    x_[i] += way;
+    if (hasLow(i))
+    {
+      low_.s[i] += way;
+      low_.z[i] = moved(low_.z[i], length * low_change_[i]);
     }
   }
-  moveFrictionBounds(mu);
+  moveFrictionBounds(mu, friction_part);
 }
 
 /// Slacks are scaled to the new bounds; their products with z stay within a factor of mu.
-void InteriorPoint::moveFrictionBounds(double mu)
+void InteriorPoint::moveFrictionBounds(double mu, double part)
 {
-  constexpr double factor = 100.0;
+  constexpr double factor = 30.0;
   for (int i = 0; i < n_; ++i)
   {
     if (!hasHigh(i))
       continue;
-    double const ratio = 2.0 * problem_.reach(i, x_) / (low_.s[i] + high_.s[i]);
+    double const ratio = 1.0 + part * (2.0 * problem_.reach(i, x_) / (low_.s[i] + high_.s[i]) - 1.0);
     for (Bound *const bound : {&low_, &high_})
     {
       double &s = bound->s[i], &z = bound->z[i];
@@ -139,9 +152,9 @@ void InteriorPoint::moveFrictionBounds(double mu)
   }
 }
 
-int InteriorPoint::solve(double enough, int most)
+int InteriorPoint::solve(double enough, int most, bool damped)
 {
-  constexpr int most_steps = 60;
+  constexpr int most_steps = 60, undamped_steps = 25;
   constexpr double endless = 1e8; // times the first impulses
   double const first = system_.largest(x_);
   std::vector<double> image; // of a step
@@ -164,7 +177,7 @@ int InteriorPoint::solve(double enough, int most)
     length = longestStep(target);
     if (!std::isfinite(length) || !std::isfinite(now.mu))
       break;
-    follow(length, (1.0 - length * (1.0 - sigma)) * now.mu);
+    follow(length, (1.0 - length * (1.0 - sigma)) * now.mu, damped || step >= undamped_steps ? 0.5 : 1.0);
     if (system_.largest(x_) > endless * first)
       break;
   }

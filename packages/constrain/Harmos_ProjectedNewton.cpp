@@ -42,15 +42,15 @@ public:
     bool const inside_first = many_change_ || n_ > 100;
     if (!reached() && inside_first)
       followInterior();
-    if (!reached())
+    else if (!reached())
       exchangeActiveSets(true);
     std::vector<ImpulseBounds> before = bounds_;
     for (int round = 0; iterations_ < max_iterations_; ++round)
     {
       if (reached())
         break;
-      if (round == patient_rounds_ && !inside_first)
-        followInterior();
+      if (round == patient_rounds_)
+        followInterior(inside_first);
       if (round >= undamped_rounds_)
         dampReach(before);
       before = bounds_;
@@ -151,14 +151,15 @@ private:
 
   /// Where many unknowns change places for ever: a path inside the bounds, and sets once more from its end. Friction
   /// that couples strongly may leave it farther off than the sets had been.
-  void followInterior()
+  /// \param damped See InteriorPoint::solve.
+  void followInterior(bool damped = false)
   {
     Vector const before = x_;
     double const least = violation();
     InteriorPoint interior(problem_, system_);
-    iterations_ += interior.solve(enough_, max_iterations_ - iterations_);
+    iterations_ += interior.solve(enough_, max_iterations_ - iterations_, damped);
     begin(interior.impulses());
-    exchangeActiveSets();
+    exchangeActiveSets(true, hasty_);
     if (!reached() && !(violation() < least))
       begin(before);
   }
@@ -176,9 +177,10 @@ private:
   /// beyond the first one.
   /// \param coupled Whether a step knows that sliding impulses go with those along n; then it takes an iteration or
   /// more longer, and only where bodies are rigid are fewer sets needed.
-  void exchangeActiveSets(bool coupled = false)
+  /// \param patient Sets in a row that need not halve the residual, where few unknowns change places.
+  void exchangeActiveSets(bool coupled = false, int patient = patient_)
   {
-    constexpr int few = 8, patient = 6, hasty = 2;
+    constexpr int few = 8;
     constexpr double far = 10.0;
     int patience = patient;
     Vector best = x_, point, slope = g_;
@@ -201,7 +203,7 @@ private:
       if (point == x_)
         slope = g_;
       many_change_ = chooseSets(point, slope) > few;
-      patience = many_change_ && !coupled ? hasty : patient;
+      patience = many_change_ && !coupled ? hasty_ : patient;
       slides_.assign(n_, 0.0);
       if (coupled)
         chooseSliding();
@@ -399,6 +401,7 @@ private:
   std::vector<char> free_;
   Vector slides_;
   static constexpr int undamped_rounds_ = 4, patient_rounds_ = 30;
+  static constexpr int patient_ = 6, hasty_ = 2; // sets that need not halve the residual
   double const safe_step_;
   Vector least_shift_;
   double start_ = 0.0, shift_ = 0.0;
