@@ -2,6 +2,7 @@
 #ifndef HARMOS_CORNER_CELL_HPP
 #define HARMOS_CORNER_CELL_HPP
 
+#include <Harmos_BodyAround.hpp>
 #include <Harmos_RemovalPlan.hpp>
 
 namespace Harmos
@@ -10,7 +11,7 @@ namespace Harmos
 /// A body with a convex corner in void: two lines cut void off the polygon that both share.
 struct CornerCell
 {
-  static constexpr int unknowns = 3, most_residuals = 2 + 8;
+  static constexpr int unknowns = 3, most_residuals = 2 + BodyAround::most_neighbours;
   double x[unknowns]; // angles of both normals, which leave the body; the first line's part of the void
   Vector2 normal[2];  // (cos, sin) of the angles
   double open;        // void that the first line cuts off
@@ -25,74 +26,24 @@ struct CornerCell
 /// over both angles and the first line's part of the void. x: centroid of what the lines leave of the polygon, whose
 /// volume is V throughout; g_j: part of neighbour j behind both lines, and beyond the rim where there is one; f_j: the
 /// body's fraction there. Three parameters meet two coordinates of a centroid: it is the neighbours that tell a corner
-/// (see isTold).
+/// (see BodyAround::isTold).
 struct CornerProblem
 {
-  static constexpr int most_neighbours = CornerCell::most_residuals - 2;
   CellComponents const &components;
   int body;              // its component
   Region const &polygon; // what body and void share
   Plane2 const *rim;     // behind it lies what was cut off before; none: null
   double volume, void_volume;
-  int count;    // of the neighbours; others are not looked at
+  BodyAround around;
   double scale; // square root of the weight over N
-  Quadrilateral quad[most_neighbours];
-  double quad_volume[most_neighbours], fraction[most_neighbours];
 
   /// \param of_misfit Weight of the mean squared misfit, of the smaller volume.
   KOKKOS_INLINE_FUNCTION CornerProblem(ReconstructionField const &field, CellComponents const &c, int of_body,
                                        Region const &shared, Plane2 const *cut, double of_misfit)
       : components(c), body(of_body), polygon(shared), rim(cut), volume(c.volume[of_body]),
-        void_volume(c.volume[c.count - 1])
+        void_volume(c.volume[c.count - 1]), around(field, c, of_body),
+        scale(Math::sqrt(of_misfit * Math::min(volume, void_volume) / Math::max(1, around.count)))
   {
-    Rows const &neighbours = field.mesh.cell_neighbour;
-    int const first = neighbours.offset(c.cell);
-    count = Math::min(most_neighbours, neighbours.offset(c.cell + 1) - first);
-    scale = Math::sqrt(of_misfit * Math::min(volume, void_volume) / Math::max(1, count));
-    for (int j = 0; j < count; ++j)
-    {
-      int const cell = neighbours.item(first + j);
-      quad[j] = unitQuadrilateral(field.mesh, components, cell);
-      quad_volume[j] = Harmos::volume(quad[j], components.weight);
-      fraction[j] = setFraction(field, components, 1u << body, cell);
-    }
-  }
-
-  /// Whether some neighbour tells where an edge goes on: one that the body fills in part. A fragment within its cell
-  /// has none, and one parameter would be free.
-  KOKKOS_INLINE_FUNCTION bool isTold() const
-  {
-    constexpr double least_fraction = 1e-9;
-    bool told = false;
-    for (int j = 0; j < count; ++j)
-      told = told || (fraction[j] > least_fraction && fraction[j] < 1.0 - least_fraction);
-    return told;
-  }
-
-  /// Part of neighbour j behind all lines.
-  KOKKOS_INLINE_FUNCTION double partBehind(int j, Plane2 const *line, int lines) const
-  {
-    int crossed[3], count_crossed = 0;
-    for (int l = 0; l < lines; ++l)
-    {
-      int behind = 0;
-      for (int k = 0; k < 4; ++k)
-        behind += dot(line[l].normal, quad[j][k]) <= line[l].offset ? 1 : 0;
-      if (behind == 0)
-        return 0.0;
-      if (behind < 4)
-        crossed[count_crossed++] = l;
-    }
-    if (count_crossed == 0)
-      return 1.0;
-    Region part, next;
-    clip(quad[j], line[crossed[0]], part);
-    for (int i = 1; i < count_crossed && !part.empty(); ++i)
-    {
-      clip(part, line[crossed[i]], next);
-      part = next;
-    }
-    return part.empty() ? 0.0 : components.volumeOfRegion(part) / quad_volume[j];
   }
 
   /// \param line One or two; the rim is added.
@@ -107,10 +58,10 @@ struct CornerProblem
     Vector2 const apart = components.firstMiss(region, body);
     cell.residual[0] = apart[0];
     cell.residual[1] = apart[1];
-    for (int j = 0; j < count; ++j)
-      cell.residual[2 + j] = scale * (partBehind(j, all, count_all) - fraction[j]);
+    for (int j = 0; j < around.count; ++j)
+      cell.residual[2 + j] = scale * around.miss(j, all, count_all);
     cell.error = 0.0;
-    for (int i = 0; i < 2 + count; ++i)
+    for (int i = 0; i < 2 + around.count; ++i)
       cell.error += cell.residual[i] * cell.residual[i];
   }
 
@@ -144,7 +95,7 @@ KOKKOS_INLINE_FUNCTION CornerCell bestCornerCell(CornerProblem const &problem, C
   constexpr double difference = 1e-7, longest_step = 0.3;
   constexpr double exact = 1e-24;     // a first moment to 1e-12
   constexpr double least_gain = 1e-3; // of the error
-  int const residuals = 2 + problem.count;
+  int const residuals = 2 + problem.around.count;
   CornerCell best = start;
   double damping = 1e-3;
   bool gains = true;
@@ -236,7 +187,7 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
       !(straightMisfit(field, components, body, polygon, normal) > poor_misfit))
     return {};
   CornerProblem const problem(field, components, body, polygon, rim, misfit_weight);
-  if (!problem.isTold())
+  if (!problem.around.isTold())
     return {};
   CornerCell one_line;
   problem.measure(straight.inside, &straight.line, 1, one_line);

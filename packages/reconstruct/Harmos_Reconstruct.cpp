@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Reconstruct.hpp>
 
+#include <Harmos_BodyFirstPlan.hpp>
 #include <Harmos_CornerCell.hpp>
 #include <Harmos_PartedPlan.hpp>
 
@@ -57,6 +58,9 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
   RemovalPlan const corner = cornerPlan(field, components, slivers, sequence);
   if (corner.corner)
     return corner;
+  RemovalPlan const body_first = bodyFirstPlan(field, components, slivers, sequence);
+  if (body_first.component[0] != sequence.component[0])
+    return body_first;
   RemovalPlan const plan = partedPlan(field, components, slivers, sequence);
   return planForThinVoid(field, components, slivers, plan);
 }

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_BODY_AROUND_HPP
+#define HARMOS_BODY_AROUND_HPP
+
+#include <Harmos_CellComponents.hpp>
+#include <Harmos_Clip.hpp>
+
+namespace Harmos
+{
+
+/// What one body fills of a cell's vertex neighbours, to be compared with lines of the cell that are continued there.
+class BodyAround
+{
+public:
+  static constexpr int most_neighbours = 8;
+  int count; // of the neighbours; others are not looked at
+
+  KOKKOS_INLINE_FUNCTION BodyAround(ReconstructionField const &field, CellComponents const &components, int body)
+      : components_(components)
+  {
+    Rows const &neighbours = field.mesh.cell_neighbour;
+    int const first = neighbours.offset(components.cell);
+    count = Math::min(most_neighbours, neighbours.offset(components.cell + 1) - first);
+    for (int j = 0; j < count; ++j)
+    {
+      int const cell = neighbours.item(first + j);
+      quad_[j] = unitQuadrilateral(field.mesh, components, cell);
+      quad_volume_[j] = Harmos::volume(quad_[j], components.weight);
+      fraction_[j] = setFraction(field, components, 1u << body, cell);
+    }
+  }
+
+  /// Whether some neighbour tells where an edge goes on: one that the body fills in part. A fragment within its cell
+  /// has none, and one parameter would be free.
+  KOKKOS_INLINE_FUNCTION bool isTold() const
+  {
+    constexpr double least_fraction = 1e-9;
+    bool told = false;
+    for (int j = 0; j < count; ++j)
+      told = told || (fraction_[j] > least_fraction && fraction_[j] < 1.0 - least_fraction);
+    return told;
+  }
+
+  /// Part of neighbour j behind all lines, less that which the body fills.
+  KOKKOS_INLINE_FUNCTION double miss(int j, Plane2 const *line, int lines) const
+  {
+    return partBehind(j, line, lines) - fraction_[j];
+  }
+
+private:
+  /// Part of neighbour j behind all lines.
+  KOKKOS_INLINE_FUNCTION double partBehind(int j, Plane2 const *line, int lines) const
+  {
+    int crossed[3], count_crossed = 0;
+    for (int l = 0; l < lines; ++l)
+    {
+      int behind = 0;
+      for (int k = 0; k < 4; ++k)
+        behind += dot(line[l].normal, quad_[j][k]) <= line[l].offset ? 1 : 0;
+      if (behind == 0)
+        return 0.0;
+      if (behind < 4)
+        crossed[count_crossed++] = l;
+    }
+    if (count_crossed == 0)
+      return 1.0;
+    Region part, next;
+    clip(quad_[j], line[crossed[0]], part);
+    for (int i = 1; i < count_crossed && !part.empty(); ++i)
+    {
+      clip(part, line[crossed[i]], next);
+      part = next;
+    }
+    return part.empty() ? 0.0 : components_.volumeOfRegion(part) / quad_volume_[j];
+  }
+
+  CellComponents const &components_;
+  Quadrilateral quad_[most_neighbours];
+  double quad_volume_[most_neighbours], fraction_[most_neighbours];
+};
+
+} // namespace Harmos
+
+#endif
