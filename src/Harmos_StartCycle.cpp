@@ -81,13 +81,13 @@ void checkState(Scene const &scene, CycleState const &s)
               std::to_string(scene.materials.extent(0)) + ", the number of materials");
 }
 
-/// Rows on short segments balance the stress of what acts over what it fills.
+/// Rows balance the stress of what acts over what it fills.
 std::vector<ShortSegments> shortSegments(Scene const &scene, std::vector<Material> const &laws)
 {
   std::vector<ShortSegments> kept;
   for (Material const &law : laws)
     kept.push_back(!actsOnFilledRegion(scene.lagrange.cut_cell_stress, law) ? ShortSegments::Dropped
-                   : actsInFullCells(scene.lagrange.cut_cell_stress, law)   ? ShortSegments::KeptInFullCells
+                   : actsInFullCells(scene.lagrange.cut_cell_stress, law)   ? ShortSegments::Shared
                                                                             : ShortSegments::Kept);
   return kept;
 }

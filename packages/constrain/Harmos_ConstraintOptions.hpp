@@ -58,12 +58,13 @@ KOKKOS_INLINE_FUNCTION bool sharesMultipliers(Placement placement)
   return placement == Placement::VitalVertices || placement == Placement::Mortar;
 }
 
-/// Whether segments of a material inside cells carry rows however short they are, in balance with its stress.
+/// What becomes of a material's segments inside cells that are shorter than ConstraintOptions::shortest_segment, and
+/// over what the tractions on its segments act.
 enum class ShortSegments
 {
-  Dropped,
-  Kept,
-  KeptInFullCells // the shortest with a row goes down to nothing with the fullness of the cell
+  Dropped, // no row; rows act at their points
+  Kept,    // rows of their own; rows act over their segments, in balance with stress that acts over what it fills
+  Shared   // in full cells half of the traction goes to the row at either end, and rows act over their segments
 };
 
 struct ConstraintOptions
@@ -78,7 +79,7 @@ struct ConstraintOptions
   double tolerance = 1e-8;              // of max(largest predicted |G v|, 1e-6 speed_scale)
   int max_iterations = 1000;
   double speed_scale = 0.0;             // of the scene [m/s]
-  double shortest_segment = 0.1;        // of the cell size; shorter segments carry no row but by short_segments
+  double shortest_segment = 0.1;        // of the cell size; shorter segments carry no row but as short_segments says
   View<ShortSegments *> short_segments; // materials; extent 0: all Dropped
   double exposed_face = 0.5;            // least exposed part of a cell face that carries a row
 };

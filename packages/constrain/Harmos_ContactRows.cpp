@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactRows.hpp>
+#include <Harmos_BentEdge.hpp>
 #include <Harmos_FacingSegments.hpp>
+#include <Harmos_Fullness.hpp>
 #include <Harmos_SegmentBearing.hpp>
 
 namespace Harmos
@@ -60,6 +62,33 @@ struct RowBuilder
            (b.material < 0 || options.interaction(a.material, b.material).kind != Interaction::Bonded);
   }
 
+  /// Whether two sides pass each other by so much in this step that no length is too short for a row.
+  KOKKOS_INLINE_FUNCTION bool pass(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    if (!(dt > 0.0))
+      return false;
+    Vector2 const apart = dt * (velocityAt(motionOf(a), a.midpoint) - velocityAt(motionOf(b), a.midpoint));
+    double const least = most_approach * a.cell_size;
+    return dot(apart, apart) > least * least;
+  }
+
+  /// Whether segment a, which faces b, carries no row for its length. Where tractions are shared its own goes to the
+  /// rows at its ends, but where bodies pass each other: what lies still wants few rows, what goes through wants many.
+  KOKKOS_INLINE_FUNCTION bool isTooShort(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    if (a.parts * a.length >= options.shortest_segment * a.cell_size)
+      return false;
+    return a.parts * a.length < bearing.shortest(a, b, fullness(mesh, pairs, regions, a.cell)) &&
+           !(bearing.balance(a, b) == ShortSegments::Shared && pass(a, b));
+  }
+
+  static KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 const &x)
+  {
+    constexpr double distance = 1e-6; // in lengths of the face
+    Vector2 const face = q[(k + 1) % 4] - q[k];
+    return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
+  }
+
   KOKKOS_INLINE_FUNCTION bool carriesRow(int i) const
   {
     InterfaceSegment const &a = segment(i);
@@ -67,7 +96,7 @@ struct RowBuilder
         (a.face >= 0 && a.exposed < options.exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
-    if (a.parts * a.length < bearing.shortest(mesh, pairs, regions, a, b) * a.cell_size)
+    if (isTooShort(a, b))
       return false;
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
         meetByOutline(a, b))
@@ -211,13 +240,21 @@ struct RowBuilder
     rows = two;
   }
 
-  /// Weights: the means of the shape functions over the segment middle +- half, as its traction acts on the nodes;
-  /// two Gauss points are exact for bilinear ones, about an axis too. half = 0: their values at a point. Sides that
-  /// move as a rigid body, or not at all, have none.
-  KOKKOS_INLINE_FUNCTION void fillSide(InterfaceSegment const &s, Vector2 const &middle, Vector2 const &half, int body,
-                                       int dof[4], double weight[4]) const
+  /// How the traction of a row acts on a side.
+  struct Traction
   {
-    constexpr double gauss = 0.57735026918962576; // 1 / sqrt 3
+    Vector2 middle;  // of what bears it
+    Vector2 half;    // from there to an end; zero: it acts at a point
+    double bend;     // of the segment's image in the middle (edgeWeights)
+    double share[2]; // lengths of the segments at the ends whose tractions it takes, over its own
+  };
+
+  /// Weights by which the volumes on both sides of a segment follow the nodes (edgeWeights), so that rows and the
+  /// stress over what a material fills speak of the same change of volume, and the traction acts on the nodes as the
+  /// stress does; at a point: the shape functions. Sides that move as a rigid body, or not at all, have none.
+  KOKKOS_INLINE_FUNCTION void fillSide(InterfaceSegment const &s, Traction const &traction, int body, int dof[4],
+                                       double weight[4]) const
+  {
     for (int k = 0; k < 4; ++k)
     {
       weight[k] = 0.0;
@@ -226,25 +263,97 @@ struct RowBuilder
     if (body != -1)
       return;
     Quadrilateral const q = cellQuadrilateral(mesh, s.cell);
-    if (mesh.geometry == Geometry::Planar && half[0] == 0.0 && half[1] == 0.0)
+    if (traction.half[0] == 0.0 && traction.half[1] == 0.0)
     {
-      shapeFunctionsAt(q, middle, weight);
+      shapeFunctionsAt(q, traction.middle, weight);
       return;
     }
     AreaWeight const ring = areaWeight(mesh.geometry, {0.0, 0.0});
-    double total = 0.0;
-    for (double const side : {-gauss, gauss})
+    Vector2 const x[3] = {traction.middle - traction.half, traction.middle, traction.middle + traction.half};
+    EdgeWeights const own = edgeWeights(ring, x[0], x[2], traction.bend);
+    double const part[3] = {own.first + 0.5 * traction.share[0] * ring.at(x[0]), own.middle,
+                            own.second + 0.5 * traction.share[1] * ring.at(x[2])};
+    double const total = part[0] + part[1] + part[2];
+    for (int i = 0; i < 3; ++i)
     {
-      Vector2 const x = middle + side * half;
       double N[4];
-      shapeFunctionsAt(q, x, N);
-      double const part = Math::max(ring.at(x), 1e-300); // a segment may lie on the axis
-      total += part;
+      shapeFunctionsAt(q, x[i], N);
       for (int k = 0; k < 4; ++k)
-        weight[k] += part * N[k];
+        weight[k] += part[i] / total * N[k];
     }
+  }
+
+  /// First segment of a cell, or where it would be.
+  KOKKOS_INLINE_FUNCTION int firstOfCell(int cell) const
+  {
+    int low = 0, high = num_segments;
+    while (low < high)
+    {
+      int const middle = (low + high) / 2;
+      if (segment(middle).cell < cell)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+
+  /// Length of the segment between the same materials that goes on beyond the cell face on which an end of segment a
+  /// lies, where it is too short for a row and shares its traction; else zero.
+  KOKKOS_INLINE_FUNCTION double shortBeyond(InterfaceSegment const &a, InterfaceSegment const &b,
+                                            Vector2 const &end) const
+  {
+    double const near = options.shortest_segment * a.cell_size;
+    Quadrilateral const q = cellQuadrilateral(mesh, a.cell);
     for (int k = 0; k < 4; ++k)
-      weight[k] /= total;
+    {
+      int const beyond = mesh.face_neighbour(a.cell, k);
+      if (beyond < 0 || !isOnFace(q, k, end))
+        continue;
+      int const cell = beyond / 4;
+      for (int i = firstOfCell(cell); i < num_segments && segment(i).cell == cell; ++i)
+      {
+        InterfaceSegment const &s = segment(i);
+        if (s.material != a.material || hit(i).segment < 0)
+          continue;
+        InterfaceSegment const &faced = segment(hit(i).segment);
+        if (faced.material != b.material || bearing.balance(s, faced) != ShortSegments::Shared || !isTooShort(s, faced))
+          continue;
+        Vector2 const half = (0.5 * s.length) * perpendicular(s.normal);
+        Vector2 const from = s.midpoint - half - end, to = s.midpoint + half - end;
+        if (Math::min(dot(from, from), dot(to, to)) < near * near)
+          return s.length;
+      }
+    }
+    return 0.0;
+  }
+
+  /// How the traction of segment a acts: at its point, or over as much of it as its cell is full.
+  KOKKOS_INLINE_FUNCTION Traction tractionOf(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    Traction found = {a.point, {0.0, 0.0}, 0.0, {0.0, 0.0}};
+    ShortSegments const balance = bearing.balance(a, b);
+    if (balance == ShortSegments::Dropped)
+      return found;
+    double const full = fullness(mesh, pairs, regions, a.cell);
+    double const part = balance == ShortSegments::Kept ? 1.0 : full;
+    Vector2 const half = (0.5 * a.length) * perpendicular(a.normal);
+    bool const bends = a.parts * a.length >= shortest_bent_edge * a.cell_size;
+    if (a.parts == 1 || bends) // halves of a bent segment have its middle as an end
+    {
+      found.middle = a.point + part * (a.midpoint - a.point);
+      found.half = part * half;
+      found.bend = a.parts == 1 && bends ? full : 0.0;
+    }
+    else // the traction of half a straight one is its end's
+    {
+      Vector2 const end = a.midpoint + (dot(a.point - a.midpoint, half) > 0.0 ? half : -half);
+      found.middle = a.point + part * (end - a.point);
+    }
+    if (balance == ShortSegments::Shared && full > 0.0)
+      for (int end = 0; end < 2; ++end)
+        found.share[end] = full * shortBeyond(a, b, a.midpoint + (end - 0.5) * a.length * perpendicular(a.normal)) / a.length;
+    return found;
   }
 
   /// Number of the nearest bond of the row's materials within reach; ties to the lower number.
@@ -306,11 +415,11 @@ struct RowBuilder
     row.gap = rows.hit[half].gap;
     row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
     setInteraction(b, row);
-    bool const whole = bearing.bearsWhole(a, b);
-    Vector2 const reach = (whole ? 0.5 * a.length : 0.0) * Vector2{-a.normal[1], a.normal[0]};
-    Vector2 const middle = whole ? a.midpoint : a.point;
-    fillSide(a, middle, reach, row.body_a, row.dof_a, row.weight_a);
-    fillSide(b, middle + row.gap * a.normal, reach, row.body_b, row.dof_b, row.weight_b);
+    Traction traction = tractionOf(a, b);
+    row.length *= 1.0 + 0.5 * (traction.share[0] + traction.share[1]);
+    fillSide(a, traction, row.body_a, row.dof_a, row.weight_a);
+    traction.middle += row.gap * a.normal;
+    fillSide(b, traction, row.body_b, row.dof_b, row.weight_b);
     return row;
   }
 };
@@ -327,7 +436,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                            pairs,
                            dof_nodes,
                            regions,
-                           {options.short_segments, options.shortest_segment},
+                           {options.short_segments, options.shortest_segment, options.placement},
                            segments.segment,
                            hit,
                            facingSegments(segments.segment, hit, bins, work),

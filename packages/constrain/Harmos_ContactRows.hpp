@@ -55,8 +55,11 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 /// exposed_face, between driven bodies, between sides that share their dof nodes, and where the segment's own normal is
 /// over 45 degrees off the fitted one.
 ///
-/// Where short_segments keeps them for the material of one side, and both sides end in one cell, the weights of the row
-/// are the means of the shape functions over the segment, as its traction acts on the nodes.
+/// Where the stress of one side acts over what it fills (ConstraintOptions::short_segments), and both sides end in one
+/// cell, the weights of the row are those of the volume that the segment sweeps (edgeWeights), over the part w of the
+/// segment by which the cell is full: traction and stress act on the nodes alike. Of a segment too short for a row half
+/// the traction goes to the row at either of its ends (ShortSegments::Shared); it has a row of its own where its sides
+/// pass each other by more than 0.02 cells in the step.
 ///
 /// \param before v^{n-1/2} \param dt Of the step; 0: no motion is known.
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,

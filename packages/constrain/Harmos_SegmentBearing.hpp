@@ -3,7 +3,6 @@
 #define HARMOS_SEGMENT_BEARING_HPP
 
 #include <Harmos_ConstraintOptions.hpp>
-#include <Harmos_Fullness.hpp>
 #include <Harmos_InterfaceSegments.hpp>
 
 namespace Harmos
@@ -12,41 +11,37 @@ namespace Harmos
 /// How tractions act on the segments of interfaces: in balance with the stress of the materials on both sides.
 struct SegmentBearing
 {
-  View<ShortSegments *> kept; // materials; extent 0: all Dropped
-  double least_length;        // ConstraintOptions::shortest_segment
+  View<ShortSegments *> of_material; // extent 0: all Dropped
+  double least_length;               // ConstraintOptions::shortest_segment
+  Placement placement;
 
   KOKKOS_INLINE_FUNCTION ShortSegments shortSegments(int material) const
   {
-    return material >= 0 && kept.extent(0) > 0 ? kept(material) : ShortSegments::Dropped;
+    return material >= 0 && of_material.extent(0) > 0 ? of_material(material) : ShortSegments::Dropped;
   }
 
-  /// What balances the traction of segment a, where both sides of an undivided interface end in its cell: beside a
-  /// wall there is no cell that is full.
+  /// What balances the traction of segment a, where both sides of an interface end in its cell: beside a wall there is
+  /// no cell that is full. Halves of segments do so for mortar multipliers; elsewhere two points want to be apart.
   KOKKOS_INLINE_FUNCTION ShortSegments balance(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
     ShortSegments const of_a = shortSegments(a.material), of_b = shortSegments(b.material);
-    if (a.parts > 1 || a.face >= 0 || b.cell != a.cell)
+    if ((a.parts > 1 && placement != Placement::Mortar) || a.face >= 0 || b.cell != a.cell)
       return ShortSegments::Dropped;
     if (of_a == ShortSegments::Kept || of_b == ShortSegments::Kept)
       return ShortSegments::Kept;
-    bool const full = of_a == ShortSegments::KeptInFullCells || of_b == ShortSegments::KeptInFullCells;
-    return full && b.material >= 0 ? ShortSegments::KeptInFullCells : ShortSegments::Dropped;
+    bool const shared = of_a == ShortSegments::Shared || of_b == ShortSegments::Shared;
+    return shared && b.material >= 0 ? ShortSegments::Shared : ShortSegments::Dropped;
   }
 
-  /// Whether the traction of segment a acts over all of it.
-  KOKKOS_INLINE_FUNCTION bool bearsWhole(InterfaceSegment const &a, InterfaceSegment const &b) const
-  {
-    return balance(a, b) != ShortSegments::Dropped;
-  }
-
-  /// Length below which segment a carries no row. [cells]
-  KOKKOS_INLINE_FUNCTION double shortest(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                                         InterfaceSegment const &a, InterfaceSegment const &b) const
+  /// Length below which segment a carries no row of its own, in a cell of this fullness. Rows that share multipliers
+  /// are not too many however short their segments are. [length]
+  KOKKOS_INLINE_FUNCTION double shortest(InterfaceSegment const &a, InterfaceSegment const &b, double full) const
   {
     ShortSegments const found = balance(a, b);
-    if (found == ShortSegments::Dropped)
-      return least_length;
-    return found == ShortSegments::Kept ? 0.0 : (1.0 - fullness(mesh, pairs, regions, a.cell)) * least_length;
+    if (found == ShortSegments::Kept)
+      return 0.0;
+    return (found == ShortSegments::Shared && sharesMultipliers(placement) ? 1.0 - full : 1.0) * least_length *
+           a.cell_size;
   }
 };
 

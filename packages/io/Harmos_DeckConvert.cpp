@@ -246,7 +246,7 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
                                   : where == "full cells"     ? CutCellStress::FullCells
                                   : where == "filled regions" ? CutCellStress::FilledRegions
                                                               : CutCellStress::Fluids;
-  check.require(where == "fluids" || deck.kinematics == Kinematics::Xfem, "numerics/cut_cell_stress",
+  check.require(where == "full cells" || deck.kinematics == Kinematics::Xfem, "numerics/cut_cell_stress",
                 '"' + where + "\" needs kinematics: xfem");
   bool const by_compressibility = list.get<std::string>("closure") == "compressibility";
   check.require(!by_compressibility || deck.kinematics == Kinematics::Single, "numerics/closure",

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_CutGradients.hpp>
 
-#include <Harmos_AreaWeight.hpp>
-#include <Harmos_Bilinear.hpp>
+#include <Harmos_BentEdge.hpp>
 #include <Harmos_Fullness.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
@@ -11,17 +10,29 @@ namespace Harmos
 namespace
 {
 
-/// d N_I / dx at reference coordinates in [0, 1]^2. [1/length]
-KOKKOS_INLINE_FUNCTION void gradientsAt(Quadrilateral const &q, Vector2 const &xi, Vector2 gradient[4])
+/// Derivatives of a region's volume by the positions of the cell's corners, as the region's outline is moved.
+KOKKOS_INLINE_FUNCTION void volumeDerivatives(Quadrilateral const &q, Region const &region, AreaWeight const &ring,
+                                              double full, Vector2 derivative[4])
 {
-  Vector2 const along = (1.0 - xi[1]) * (q[1] - q[0]) + xi[1] * (q[2] - q[3]); // dx/dxi
-  Vector2 const across = (1.0 - xi[0]) * (q[3] - q[0]) + xi[0] * (q[2] - q[1]);
-  double const inverse = 1.0 / cross(along, across);
-  Vector2 const of_xi{inverse * across[1], -inverse * across[0]}, of_eta{-inverse * along[1], inverse * along[0]};
-  double const d_xi[4] = {xi[1] - 1.0, 1.0 - xi[1], xi[1], -xi[1]};
-  double const d_eta[4] = {xi[0] - 1.0, -xi[0], xi[0], 1.0 - xi[0]};
   for (int k = 0; k < 4; ++k)
-    gradient[k] = d_xi[k] * of_xi + d_eta[k] * of_eta;
+    derivative[k] = {0.0, 0.0};
+  double const cell_area = area(q);
+  double N_first[4], N_next[4], N[4], N_middle[4];
+  shapeFunctionsAt(q, region[0], N_first);
+  for (int k = 0; k < 4; ++k)
+    N_next[k] = N_first[k];
+  for (int i = 0; i < region.size; ++i)
+  {
+    Vector2 const a = region[i], b = region[region.next(i)];
+    for (int k = 0; k < 4; ++k)
+      N[k] = N_next[k];
+    shapeFunctionsAt(q, b, N_next);
+    shapeFunctionsAt(q, 0.5 * (a + b), N_middle);
+    EdgeWeights const w = edgeWeights(ring, a, b, bendOf(b - a, cell_area, full, N_middle));
+    Vector2 const normal{b[1] - a[1], a[0] - b[0]}; // times the length
+    for (int k = 0; k < 4; ++k)
+      derivative[k] += (w.first * N[k] + w.middle * N_middle[k] + w.second * N_next[k]) * normal;
+  }
 }
 
 /// Integrals of the shape functions over a region, per its ring's volume: midpoints of the edges of its triangles.
@@ -56,37 +67,39 @@ struct CutGradientFunctor
   CutCellStress where;
   View<double *[12]> gradient;
 
-  KOKKOS_INLINE_FUNCTION void store(int row, int cell, Quadrilateral const &q, double share) const
+  KOKKOS_INLINE_FUNCTION void store(int row, int cell, Quadrilateral const &q, double full, double share) const
   {
-    constexpr double least_area = 1e-13; // of the cell
+    constexpr double least_volume = 1e-6; // of the cell's: below it the outline's round-off would count
     Region const &region = regions.polygon(row);
-    bool const thin = region.size < 3 || !(area(region) > least_area * mesh.cell_area(cell));
-    Vector2 centre{0.0, 0.0};
-    int const count = region.size > 0 ? region.size : 4;
-    for (int i = 0; i < count; ++i)
-      centre += (1.0 / count) * (region.size > 0 ? region[i] : q[i]);
-    if (!thin)
-      centre = volumeCentroid(region, mesh.geometry);
-    Vector2 const xi = referenceCoordinates(q, centre);
-    Vector2 slope[4];
-    gradientsAt(q, xi, slope);
-    bool const ring = mesh.geometry == Geometry::Axisymmetric;
+    AreaWeight const ring = areaWeight(mesh.geometry, {0.0, 0.0});
+    double const filled = region.size < 3 ? 0.0 : volume(region, ring);
+    if (!(filled > least_volume * mesh.cell_volume(cell)))
+    {
+      for (int column = 0; column < 12; ++column)
+        gradient(row, column) = 0.0;
+      return;
+    }
+    bool const about_axis = mesh.geometry == Geometry::Axisymmetric;
+    Vector2 derivative[4];
+    volumeDerivatives(q, region, ring, full, derivative);
+    double hoop[4] = {};
+    if (about_axis)
+      hoopMeans(q, region, hoop);
     detail::Corners<double> const corners = detail::cellCorners(mesh, cell);
     auto const plane = detail::meanGradient(corners);
     double const mean[4][2] = {
         {plane.x0, plane.y0}, {plane.x1, plane.y1}, {-plane.x0, -plane.y0}, {-plane.x1, -plane.y1}};
     auto const about = detail::ringGradient(corners);
-    double hoop[4] = {};
-    if (ring && !thin)
-      hoopMeans(q, region, hoop);
-    bool const keeps_mean = ring && thin; // its centroid may lie on the axis
+    Vector2 beyond[4];
+    for (int k = 0; k < 4; ++k)
+      beyond[k] = {derivative[k][0] / filled - hoop[k] - (about_axis ? about.x[k] / about.volume : mean[k][0] / plane.area),
+                   derivative[k][1] / filled - (about_axis ? about.y[k] / about.volume : mean[k][1] / plane.area)};
+    beyond[3] = Vector2{0.0, 0.0} - (beyond[0] + beyond[1] + beyond[2]); // nothing for a translation, to the last digit
     for (int k = 0; k < 4; ++k)
     {
-      double const mean_x = ring ? about.x[k] / about.volume : mean[k][0] / plane.area;
-      double const mean_y = ring ? about.y[k] / about.volume : mean[k][1] / plane.area;
-      gradient(row, 3 * k + CutGradientX) = keeps_mean ? 0.0 : share * (slope[k][0] - mean_x);
-      gradient(row, 3 * k + CutGradientY) = keeps_mean ? 0.0 : share * (slope[k][1] - mean_y);
-      gradient(row, 3 * k + CutHoop) = ring && !thin ? share * (hoop[k] - about.hoop[k] / about.volume) : 0.0;
+      gradient(row, 3 * k + CutGradientX) = share * beyond[k][0];
+      gradient(row, 3 * k + CutGradientY) = share * beyond[k][1];
+      gradient(row, 3 * k + CutHoop) = about_axis ? share * (hoop[k] - about.hoop[k] / about.volume) : 0.0;
     }
   }
 
@@ -95,12 +108,12 @@ struct CutGradientFunctor
     int const cell = regions.mixed_cell(i);
     Quadrilateral const q = cellQuadrilateral(mesh, cell);
     int const first = regions.cell_region(cell), count = pairs.offset(cell + 1) - pairs.offset(cell);
-    double const full = where == CutCellStress::FullCells ? fullness(mesh, pairs, regions, cell) : 1.0;
+    double const full = fullness(mesh, pairs, regions, cell);
     for (int k = 0; k < count; ++k)
     {
       Material const &material = materials(pairs.material(pairs.offset(cell) + k));
       if (actsOnFilledRegion(where, material))
-        store(first + k, cell, q, actsInFullCells(where, material) ? full : 1.0);
+        store(first + k, cell, q, full, actsInFullCells(where, material) ? full : 1.0);
     }
   }
 };

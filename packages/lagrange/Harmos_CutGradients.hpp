@@ -48,17 +48,22 @@ struct CutGradients
 /// Gradients of the filled regions of materials whose stress acts over them (actsOnFilledRegion), less those of their
 /// cells; the rows of the others are not written.
 ///
-/// A material's stress acts on its part of a cut cell alone: f_I = - sigma . integral over the filled region of
-/// grad N_I. With the cell's mean in its place a uniform pressure p would drive the nodes at an oblique interface by
-/// O(p h) against the tractions on the segments, which knows nothing of h: gases at rest would stream. The mean over
-/// the region is the gradient at its centroid (r-weighted about an axis), exactly on parallelograms; the hoop's
-/// integral of N_I over the region is exact there too. Sum over I: zero, and one over the centroid's radius.
+/// A material's stress acts on its part of a cut cell alone, and its strain is that of its part: the gradient is
+///
+///   B_I = (1 / V) dV / dx_I,
+///
+/// V the volume of the filled region as the remap moves it: vertices with the bilinear motion of the cell, edges inside
+/// it bent in the middle as far as the cell is full (edgeWeights). The contact rows have the same weights, so that work
+/// at the interface, stress and moved regions speak of one change of volume. With the cell's mean in its place a uniform
+/// pressure p drives the nodes at an oblique interface by O(p h) against the tractions on the segments, which knows
+/// nothing of h: gases at rest stream, and squeezed solids lose their pressure, since regions are squeezed where the
+/// mean strain of their cells is none. About an axis B_I holds the hoop's part N_I / r, which is the integral of N_I over
+/// the region. Sum over I: zero, and the hoop's the area over the ring's volume.
 ///
 /// In full cells alone (actsInFullCells) what is stored is the fullness w of the cell times that: the gradient is
 /// (1 - w) times the cell's mean and w times the region's, continuous where void opens.
 ///
-/// \param cut Out. Regions whose area is not above 1e-13 of the cell's take the gradient at the mean of their vertices,
-///            about an axis the cell's mean.
+/// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.
 ///
 /// Moes, Dolbow & Belytschko, Int. J. Numer. Meth. Engng 46 (1999) 131: integrals over the parts of a cut element.
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,

@@ -21,7 +21,7 @@ enum class Closure
 
 struct LagrangeOptions
 {
-  CutCellStress cut_cell_stress = CutCellStress::Fluids;
+  CutCellStress cut_cell_stress = CutCellStress::FullCells;
   Closure closure = Closure::EqualStrain;
   double linear_viscosity = 0.06;
   double quadratic_viscosity = 1.2;

@@ -3,6 +3,7 @@
 import pathlib
 
 from compare import newest_checkpoint, same_on_ranks, same_state
+from contact_scenes import tee_settings
 from harness import clean, harmos, run
 from sliding_block import SQUEEZE, settings
 
@@ -48,8 +49,9 @@ def test_squeezed_sliding_block():
     clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, SQUEEZE)))
 
 
-def test_stress_in_full_cells():
-    clean(compare("disc_through_plate/deck.yaml", {"numerics/cut_cell_stress": "full cells"}))
+def test_squeezed_blocks_whose_short_segments_lie_across_ranks():
+    h = 2.4 / 38
+    clean(compare(HERE / "decks/tee.yaml", tee_settings(30.0, (0.31 * h, 0.17 * h), 1.0)))
 
 
 def test_breaking_bonds():

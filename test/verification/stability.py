@@ -21,11 +21,11 @@ def test_sliver_runs_ten_thousand_cycles_without_a_shorter_step():
     plain = box(0.0)
     start = {"run/max_cycles": 5, "output/history/every_cycles": 1}
     plain_start = box(0.0, **start)
-    for merge in (0.0, 1e-6):
+    for merge in (0.0, 1e-6):  # (the material beside a sliver of 1e-10 has a gradient that is off the cell's by as much)
         r = box(1e-10, **{"numerics/remap/merge_below": merge})
         first = box(1e-10, **{"numerics/remap/merge_below": merge, **start})
         check(f"first time steps against no sliver, merging below {merge}",
-              max(abs(a / b - 1.0) for a, b in zip(first["dt"][1:], plain_start["dt"][1:])), 1e-12)
+              max(abs(a / b - 1.0) for a, b in zip(first["dt"][1:], plain_start["dt"][1:])), 1e-9)
         check("least time step against no sliver", abs(min(r["dt"][1:]) / min(plain["dt"][1:]) - 1.0), 1e-3)
         check("kinetic energy against its first peak", max(r["kinetic_energy"][50:]) / max(r["kinetic_energy"][:20]), 1.0)
         check("mass", r.summary["mass_error"], 1e-11)
@@ -84,11 +84,13 @@ def test_gases_of_one_pressure_rest_beside_an_oblique_interface():
     assert driven > 1e-3
 
 
+# At 35 degrees the line passes nodes at 2e-4 of a cell: the tips there are merged with their neighbours, and lose their pressure.
 def test_stress_over_what_solids_fill_answers_a_uniform_pressure_with_uniform_tractions():
+    exact = [(method, angle, 1e-6) for method in ("multipliers", "vital vertices", "mortar") for angle in (20.0, 45.0)]
     for where in ("filled regions", "full cells"):
-        for method, angle, bound in (("multipliers", 20.0, 1e-6), ("vital vertices", 20.0, 1e-6), ("vital vertices", 35.0, 1e-3), ("mortar", 20.0, 0.04)):
+        for method, angle, bound in exact + [("multipliers", 35.0, 0.05), ("vital vertices", 35.0, 0.1)]:
             METHODS["over regions"] = {**METHODS[method], "numerics/cut_cell_stress": where}
-            check(f"{where}, {method}, {angle:.0f} degrees: deviation of the tractions", deviation("over regions", angle), bound)
+            check(f"{where}, {method}, {angle:.0f} degrees: deviation of the tractions", deviation("over regions", angle, refinement=2), bound)
 
 
 def test_a_lone_rod_moves_the_same_in_full_cells():

@@ -187,12 +187,47 @@ TEST(ContactRows, keysAscendAndWeightsReproduceThePoints)
   }
 }
 
-// The traction of a segment acts on the nodes with the means of the shape functions: quadratic along it, so by Simpson.
-TEST(ContactRows, weightsAreMeansOverTheSegmentWhereStressIsInBalanceWithThem)
+namespace
 {
-  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)}, along{n[1], -n[0]};
-  TinyScene scene = split(12, [n](Quadrilateral const &) { return Plane2{n, 4.321}; });
-  scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, ShortSegments::Kept));
+
+Vector2 const oblique{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
+
+/// Two halves of 12 x 12 cells at 15 degrees, `gap` apart.
+TinyScene apart(double gap, ShortSegments short_segments)
+{
+  TinyScene scene(rectilinearMesh(uniform(12, 12), uniform(12, 12)),
+                  {{0, [](Quadrilateral const &q) { return cutBy(q, Plane2{oblique, 4.321}); }},
+                   {1, [gap](Quadrilateral const &q) { return cutBy(q, reversed({oblique, 4.321 + gap})); }}},
+                  2, open_box);
+  scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, short_segments));
+  return scene;
+}
+
+/// What a uniform pressure on the rows does to the dofs of the lower half, per pressure.
+std::vector<double> forces(TinyScene const &scene, std::vector<ContactRow> const &rows)
+{
+  std::vector<double> f(static_cast<std::size_t>(scene.dof_nodes.num_dof_nodes), 0.0);
+  for (ContactRow const &r : rows)
+    for (int k = 0; k < 4; ++k)
+      f[static_cast<std::size_t>(r.dof_a[k])] += r.length * r.weight_a[k];
+  return f;
+}
+
+double largestDifference(std::vector<double> const &f, std::vector<double> const &g)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < f.size(); ++i)
+    largest = std::max(largest, std::fabs(f[i] - g[i]));
+  return largest;
+}
+
+} // namespace
+
+// The volume that an edge sweeps: of a bent one its ends count a quarter each and its middle half, of a short one, which
+// stays straight, its ends half each.
+TEST(ContactRows, weightsAreThoseOfTheSweptVolumeWhereStressIsInBalanceWithThem)
+{
+  TinyScene scene = apart(0.0, ShortSegments::Kept);
   auto const rows = rowsOf(scene);
   EXPECT_GT(rows.size(), 10u);
   for (ContactRow const &r : rows)
@@ -200,35 +235,32 @@ TEST(ContactRows, weightsAreMeansOverTheSegmentWhereStressIsInBalanceWithThem)
     Quadrilateral const q = cellQuadrilateral(scene.mesh, r.cell_a);
     double N[3][4];
     for (int j = 0; j < 3; ++j)
-      shapeFunctionsAt(q, r.point + (0.5 * (j - 1) * r.length) * along, N[j]);
+      shapeFunctionsAt(q, r.point + (0.5 * (j - 1) * r.length) * perpendicular(oblique), N[j]);
+    double const ends = r.length < 0.1 ? 0.5 : 0.25;
     for (int k = 0; k < 4; ++k)
-      EXPECT_NEAR(r.weight_a[k], (N[0][k] + 4.0 * N[1][k] + N[2][k]) / 6.0, 1e-13);
+      EXPECT_NEAR(r.weight_a[k], ends * (N[0][k] + N[2][k]) + (1.0 - 2.0 * ends) * N[1][k], 1e-13);
   }
 }
 
-TEST(ContactRows, shortSegmentsHaveRowsWhereStressIsInBalanceWithThem)
+TEST(ContactRows, shortSegmentsShareTheirTractionsInFullCells)
 {
-  Vector2 const n{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 180)};
-  auto const count = [n](double gap, ShortSegments kept)
+  auto const of = [](double gap, ShortSegments short_segments)
   {
-    TinyScene scene(rectilinearMesh(uniform(12, 12), uniform(12, 12)),
-                    {{0,
-                      [n](Quadrilateral const &q) {
-                        return cutBy(q, Plane2{n, 4.321});
-                      }},
-                     {1,
-                      [n, gap](Quadrilateral const &q) {
-                        return cutBy(q, reversed({n, 4.321 + gap}));
-                      }}},
-                    2, open_box);
-    scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, kept));
-    return rowsOf(scene).size();
+    TinyScene scene = apart(gap, short_segments);
+    auto const rows = rowsOf(scene);
+    return std::make_pair(rows.size(), forces(scene, rows));
   };
-  EXPECT_LT(count(0.0, ShortSegments::Dropped), count(0.0, ShortSegments::Kept));
-  EXPECT_EQ(count(0.0, ShortSegments::KeptInFullCells), count(0.0, ShortSegments::Kept));
+  auto const dropped = of(0.0, ShortSegments::Dropped), kept = of(0.0, ShortSegments::Kept),
+             shared = of(0.0, ShortSegments::Shared);
+  EXPECT_LT(dropped.first, kept.first);
+  EXPECT_EQ(shared.first, dropped.first);
+  EXPECT_GT(largestDifference(dropped.second, kept.second), 0.02);
+  EXPECT_LT(largestDifference(shared.second, kept.second), 1e-13);
   constexpr double gap = 0.15; // more than 1% of the cell is void where a segment is longer than 0.07 cells
-  EXPECT_LT(count(gap, ShortSegments::KeptInFullCells), count(gap, ShortSegments::Kept));
-  EXPECT_EQ(count(gap, ShortSegments::KeptInFullCells), count(gap, ShortSegments::Dropped));
+  auto const open = of(gap, ShortSegments::Shared), at_points = of(gap, ShortSegments::Dropped);
+  EXPECT_EQ(open.first, at_points.first);
+  EXPECT_LT(largestDifference(open.second, at_points.second), 1e-13);
+  EXPECT_LT(open.first, of(gap, ShortSegments::Kept).first);
 }
 
 namespace

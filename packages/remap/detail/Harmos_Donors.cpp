@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <detail/Harmos_Donors.hpp>
 
-#include <Harmos_AreaWeight.hpp>
+#include <Harmos_BentEdge.hpp>
+#include <Harmos_Fullness.hpp>
 
 namespace Harmos
 {
@@ -36,6 +37,11 @@ KOKKOS_INLINE_FUNCTION bool moveCorners(Input const &in, Classes const &classes,
   return moves;
 }
 
+KOKKOS_INLINE_FUNCTION Vector2 interpolated(double const N[4], Vector2 const u[4])
+{
+  return (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]);
+}
+
 KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, MovedCorners const &c, Region &region)
 {
   Quadrilateral const &q = c.q;
@@ -48,8 +54,10 @@ KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Move
       region[k] = c.x[k];
     return;
   }
+  // Where interfaces are closed edges bend at their middles as the bilinear motion bends them (Harmos_BentEdge.hpp).
+  double const full = fullness(in.mesh, in.pairs, in.regions, cell), cell_area = in.mesh.cell_area(cell);
   Region const &still = in.regions.polygon(first + pair - in.pairs.offset(cell));
-  region.size = still.size;
+  region.size = 0;
   for (int i = 0; i < still.size; ++i)
   {
     Vector2 const x = still[i];
@@ -60,7 +68,19 @@ KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Move
     double N[4];
     if (corner < 0)
       shapeFunctionsAt(q, x, N);
-    region[i] = corner >= 0 ? c.x[corner] : x + ((N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]));
+    region.push(corner >= 0 ? c.x[corner] : x + interpolated(N, u));
+    if (!(full > 0.0) || region.size + still.size - i > max_region_vertices)
+      continue;
+    Vector2 const next = still[still.next(i)], middle = 0.5 * (x + next);
+    double N_next[4], N_middle[4];
+    shapeFunctionsAt(q, middle, N_middle);
+    double const bend = bendOf(next - x, cell_area, full, N_middle);
+    if (!(bend > 0.0))
+      continue;
+    shapeFunctionsAt(q, x, N);
+    shapeFunctionsAt(q, next, N_next);
+    Vector2 const chord = 0.5 * (interpolated(N, u) + interpolated(N_next, u));
+    region.push(middle + chord + bend * (interpolated(N_middle, u) - chord));
   }
 }
 
@@ -131,7 +151,7 @@ KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, Mov
   double N[4];
   shapeFunctionsAt(c.q, centroid, N);
   Vector2 const shift =
-      withinWalls(in, cell, c.q, region, centroid, (N[0] * u[0] + N[1] * u[1]) + (N[2] * u[2] + N[3] * u[3]));
+      withinWalls(in, cell, c.q, region, centroid, interpolated(N, u));
   for (int i = 0; i < region.size; ++i)
     region[i] += shift;
 }

@@ -93,6 +93,22 @@ TEST(Overlap, bodiesOnBothSidesOfAnEmptyCell_meetWithinIt)
   EXPECT_NEAR(scene.report.moved_overlap.place[0], 3.5 * h, 1e-15);
 }
 
+TEST(Overlap, ofAClosedChord_isWhatItsMiddleSweeps)
+{
+  // x + y < 9.3 h and the rest. The node (4 h, 4 h) of the first moves towards the chord from (5, 4.3) h to (4.3, 5) h,
+  // whose ends it does not move; N = 0.35^2 in the chord's middle, which counts half.
+  double const u = 0.01 * h, quarter_turn = Math::pi / 4.0;
+  Scene scene = openScene({halfPlane(0, {4.3 * h, 5.0 * h}, quarter_turn), rest(1)}, {{0.0, 0.0}, {0.0, 0.0}});
+  scene.move(
+      [=](int material, Vector2 const &x)
+      {
+        bool const moves = material == 0 && norm(x - Vector2{4.0 * h, 4.0 * h}) < 1e-12;
+        return moves ? Vector2{u, u} : Vector2{0.0, 0.0};
+      });
+  scene.remapped();
+  EXPECT_NEAR(scene.report.moved_overlap.volume, 0.5 * 0.1225 * (0.7 * std::sqrt(2.0) * h) * (std::sqrt(2.0) * u), 1e-16);
+}
+
 TEST(Overlap, aboutAnAxis_isAVolume)
 {
   // 4 h < r < 4.1 h, 3 cells high; the cell's volume is 4.5 h^3.
