@@ -22,9 +22,10 @@ def test_disc_goes_through_and_everything_is_conserved():
     clean(r)
 
 
-# The end of this run follows the last digits of the start: one run's overlap says little. Thirteen offsets of the disc
-# by up to 4e-9 cells gave 0.48 to 0.58 (0.41 to 0.45 while solids' stress acted along the means of cut cells); with one row a facet, where tilted facets are through with their ends,
-# 0.79; where fragments that lie beyond an outflow face after one step stayed there, up to 0.68.
+# The end of this run follows the last digits of the start: one run's overlap says little. Eight places of the disc gave
+# 0.49 to 0.59 (thirteen 0.41 to 0.45 while solids' stress acted along the means of cut cells); with one row a facet, where
+# tilted facets are through with their ends, 0.79; where fragments that lie beyond an outflow face after one step stayed there,
+# up to 0.68.
 def test_moved_regions_overlap_little():
     overlaps, polygons, largest = [], [], []
     for offset in (0.0, 1e-13, 2e-13):

@@ -285,9 +285,8 @@ EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0
   beside the cell face and at 30 degrees since slivers lie by their centroids (with `sliver: 1e-3` they fail there: light films gain energy). Along the face penalty 1 fails, and penalty 3 and Nitsche 1 gain 323 and 74 times the energy of the start; of 18 placements (six angles, three offsets) penalty 1 fails in no
   other, Nitsche 1 gains in three more (0.1 to 8 times), penalty 3 in all. Two points a segment take up to 141 iterations in a cycle, midpoints up to 54 (38 and 26 with the path inside the bounds first in small problems too, [decision 0010](decisions/0010-projected-newton.md)). Slivers by their centroids cost midpoints along the cell face: overlap 0.054 instead of 0.037 of a cell, energy 2.2% instead of 1.4%.
 - **uniform pressure**: two blocks under one pressure fill a closed box, their interface upright or at 20 degrees to the mesh: root mean square deviation of the segments' tractions from their mean, by length, over the pressure, cycles 31
-  to 60 (exact: 0; [finer meshes](#tractions-against-resolution)). It is not the reconstruction that deviates: under 1e-3, 1e-5 and 1e-7 of rho c^2 the interface stays straight to about as much of a cell, and mortar multipliers at 20 degrees deviate by 0.119, 0.116 and 0.141, vital vertices by 0.065, 0.084 and 0.068;
-  in the first cycle, on the exact line, by 0.059 and 0.045 at all three. Nor is it the mortar multipliers: a pressure integrated exactly over the interface they answer to round-off (`tstVitalVertices`). It is the forces of a cut cell: volume fraction times the mean
-  gradient of the whole cell, which a uniform traction on the cut does not balance. **The same in full cells**: with `numerics/cut_cell_stress: full cells` ([decision 0012](decisions/0012-stress-of-cut-cells.md)), where they do.
+  to 60 (exact: 0; [finer meshes](#tractions-against-resolution)). Rows, the stress of cut cells and the moved outlines speak of one change of volume there ([decision 0023](decisions/0023-one-change-of-volume.md)). Midpoints at 20 degrees owe what they deviate by to a segment of 0.08 cells that ends at the wall; on the finer meshes there is none.
+  **The same along cells' means**: with `numerics/cut_cell_stress: cell mean`, the force of a cut cell being volume fraction times the mean gradient of the whole cell, which a uniform traction on the cut does not balance.
 - **shear**: the largest of 0.1, 1, 3, 10 for the rim's speed over that of sound up to which an elastic disc spins within a fixed rigid socket that is tied to it (merged velocity ties by itself), 300 cycles without a gain of energy: beyond 1 the step is that of travel limits,
   and the cells between the rim and the first free nodes are sheared by up to 0.9 of their width in each.
 - **stress error**: of the contact stress of two bars, 20 cells each, of which one is denser or stiffer by the factor (exact: V Z1 Z2/(Z1 + Z2); much stiffer: Z1 V exp(-Z1 t/(rho2 L))).
@@ -300,8 +299,7 @@ RESOLUTION = """
 ## Tractions against resolution
 
 The uniform pressure again, the same box with 4 to 32 cells over its height and the same time in more cycles. A traction that alternates by a from multiplier to multiplier, a checkerboard, deviates by a: no method's checkerboard is larger than its deviation.
-Along the mesh nothing starts one. At 20 degrees the forces of cut cells do in every cycle, and refinement does not help: multipliers at midpoints go from 31% to 66 to 80%, which differs between solvers and by last digits (from 13% to 6% in the first cycle; after 30 cycles the deviation hardly changes, four times as many included), vital vertices from 7% to 21%, mortar multipliers stay between 9% and 15%.
-In full cells, where the forces are in balance, midpoints, vital vertices and Nitsche have none at any resolution; mortar multipliers up to 4.5%, two points a segment up to their pressure and beyond.
+Neither along the mesh nor at 20 degrees does anything start one for midpoints, vital vertices, mortar multipliers and Nitsche; two points a segment, too many for the interface, deviate by half the pressure and more. Along the means of their cells stress starts one in every cycle, and refinement does not help.
 
 ![tractions](tractions.png)
 
