@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Harmos_ContactRows.hpp>
 #include <Harmos_BentEdge.hpp>
+#include <Harmos_ContactRows.hpp>
 #include <Harmos_FacingSegments.hpp>
 #include <Harmos_Fullness.hpp>
 #include <Harmos_SegmentBearing.hpp>
@@ -352,7 +352,8 @@ struct RowBuilder
     }
     if (balance == ShortSegments::Shared && full > 0.0)
       for (int end = 0; end < 2; ++end)
-        found.share[end] = full * shortBeyond(a, b, a.midpoint + (end - 0.5) * a.length * perpendicular(a.normal)) / a.length;
+        found.share[end] =
+            full * shortBeyond(a, b, a.midpoint + (end - 0.5) * a.length * perpendicular(a.normal)) / a.length;
     return found;
   }
 

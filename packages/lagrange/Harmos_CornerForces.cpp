@@ -79,7 +79,7 @@ struct CornerForceFunctor
       bool const any_cut = actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell);
       auto const v = detail::packedCorners({dof_node, pair, run}, velocity);
       PackedCornerRows const nodes(cell_node, cell, run && countsUp(cell_of + pair[0]));
-      Pack const cut_trace = any_cut ? cut.velocityGradient(pair, cell, v).trace() : Pack(0.0);
+      Pack const cut_trace = any_cut ? cut.template velocityGradient<geometry>(pair, cell, v).trace() : Pack(0.0);
       auto const forces = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair, run),
                                                        detail::packedCorners(nodes, position), v,
                                                        bearing(material, pair, cell), cut_trace);
@@ -88,7 +88,7 @@ struct CornerForceFunctor
         for (int lane = 0; lane < pack_width; ++lane)
           before(pair[lane], BeforeBearing) = laneOf(forces.bearing, lane);
       if (any_cut)
-        cut.addForces(pair, cell, forces.stress, forces.cell_volume, f);
+        cut.template addForces<geometry>(pair, cell, forces.stress, forces.cell_volume, f);
     }
     Pack const row[8] = {f.x[0], f.y[0], f.x[1], f.y[1], f.x[2], f.y[2], f.x[3], f.y[3]};
     storeIndexedRows(row, lanes, corner_force, pair, run);

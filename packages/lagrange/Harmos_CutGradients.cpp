@@ -65,6 +65,7 @@ struct CutGradientFunctor
   FilledRegions regions;
   View<Material *> materials;
   CutCellStress where;
+  View<int *> first_row;
   View<double *[12]> gradient;
 
   KOKKOS_INLINE_FUNCTION void store(int row, int cell, Quadrilateral const &q, double full, double share) const
@@ -92,7 +93,8 @@ struct CutGradientFunctor
     auto const about = detail::ringGradient(corners);
     Vector2 beyond[4];
     for (int k = 0; k < 4; ++k)
-      beyond[k] = {derivative[k][0] / filled - hoop[k] - (about_axis ? about.x[k] / about.volume : mean[k][0] / plane.area),
+      beyond[k] = {derivative[k][0] / filled - hoop[k] -
+                       (about_axis ? about.x[k] / about.volume : mean[k][0] / plane.area),
                    derivative[k][1] / filled - (about_axis ? about.y[k] / about.volume : mean[k][1] / plane.area)};
     beyond[3] = Vector2{0.0, 0.0} - (beyond[0] + beyond[1] + beyond[2]); // nothing for a translation, to the last digit
     for (int k = 0; k < 4; ++k)
@@ -109,12 +111,18 @@ struct CutGradientFunctor
     Quadrilateral const q = cellQuadrilateral(mesh, cell);
     int const first = regions.cell_region(cell), count = pairs.offset(cell + 1) - pairs.offset(cell);
     double const full = fullness(mesh, pairs, regions, cell);
+    bool any = false;
     for (int k = 0; k < count; ++k)
     {
       Material const &material = materials(pairs.material(pairs.offset(cell) + k));
-      if (actsOnFilledRegion(where, material))
-        store(first + k, cell, q, full, actsInFullCells(where, material) ? full : 1.0);
+      double const share = actsInFullCells(where, material) ? full : 1.0;
+      if (!actsOnFilledRegion(where, material))
+        continue;
+      store(first + k, cell, q, full, share);
+      any = any || share > 0.0;
     }
+    if (any)
+      first_row(cell) = first;
   }
 };
 
@@ -123,13 +131,16 @@ struct CutGradientFunctor
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
                          View<Material *> const &materials, CutCellStress where, CutGradients &cut)
 {
-  cut.cell_region = regions.cell_region;
+  if (static_cast<int>(cut.first_row.extent(0)) != mesh.num_cells)
+    cut.first_row =
+        View<int *>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::first_row"), mesh.num_cells);
+  Kokkos::deep_copy(cut.first_row, -1);
   int const count = static_cast<int>(regions.polygon.extent(0));
   if (static_cast<int>(cut.gradient.extent(0)) < count)
     cut.gradient = View<double *[12]>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::cut_gradient"),
                                       count + count / 8);
   Kokkos::parallel_for("Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
-                       CutGradientFunctor{mesh, pairs, regions, materials, where, cut.gradient});
+                       CutGradientFunctor{mesh, pairs, regions, materials, where, cut.first_row, cut.gradient});
 }
 
 } // namespace Harmos

@@ -41,8 +41,8 @@ enum CutGradientColumn : int
 /// What the means of the shape functions' gradients over a filled region have beyond those over its cell.
 struct CutGradients
 {
-  View<int *> cell_region;     // of the filled regions that this belongs to; extent 0: cells' means for all pairs
-  View<double *[12]> gradient; // by filled region that bears its stress, 3 I + CutGradientColumn [1/length]
+  View<int *> first_row;       // by cell: row of its first pair; -1: cells' means for all; extent 0: so everywhere
+  View<double *[12]> gradient; // by row, 3 I + CutGradientColumn; rows follow the pairs of a cell [1/length]
 };
 
 /// Gradients of the filled regions of materials whose stress acts over them (actsOnFilledRegion), less those of their
@@ -54,11 +54,11 @@ struct CutGradients
 ///
 /// V the volume of the filled region as the remap moves it: vertices with the bilinear motion of the cell, edges inside
 /// it bent in the middle as far as the cell is full (edgeWeights). The contact rows have the same weights, so that work
-/// at the interface, stress and moved regions speak of one change of volume. With the cell's mean in its place a uniform
-/// pressure p drives the nodes at an oblique interface by O(p h) against the tractions on the segments, which knows
-/// nothing of h: gases at rest stream, and squeezed solids lose their pressure, since regions are squeezed where the
-/// mean strain of their cells is none. About an axis B_I holds the hoop's part N_I / r, which is the integral of N_I over
-/// the region. Sum over I: zero, and the hoop's the area over the ring's volume.
+/// at the interface, stress and moved regions speak of one change of volume. With the cell's mean in its place a
+/// uniform pressure p drives the nodes at an oblique interface by O(p h) against the tractions on the segments, which
+/// knows nothing of h: gases at rest stream, and squeezed solids lose their pressure, since regions are squeezed where
+/// the mean strain of their cells is none. About an axis B_I holds the hoop's part N_I / r, which is the integral of
+/// N_I over the region. Sum over I: zero, and the hoop's the area over the ring's volume.
 ///
 /// In full cells alone (actsInFullCells) what is stored is the fullness w of the cell times that: the gradient is
 /// (1 - w) times the cell's mean and w times the region's, continuous where void opens.

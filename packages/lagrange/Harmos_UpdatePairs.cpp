@@ -157,10 +157,11 @@ struct UpdateFunctor
       return;
     }
     Pack const power = cornerPower(corner_force, pair, run, detail::packedCorners(dofs, velocity), v);
-    auto const updated = detail::updatePair<geometry>(
-        material, detail::loadPackedRecord(record, pair, run), x, v, power, dt,
-        actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell) ? cut.velocityGradient(pair, cell, v)
-                                                                               : detail::CutVelocityGradient<Pack>{});
+    auto const updated =
+        detail::updatePair<geometry>(material, detail::loadPackedRecord(record, pair, run), x, v, power, dt,
+                                     actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell)
+                                         ? cut.template velocityGradient<geometry>(pair, cell, v)
+                                         : detail::CutVelocityGradient<Pack>{});
     auto const &r = updated.record;
     Pack const fraction = packOf([&](int lane) { return record(pair[lane], VolumeFraction); });
     Pack const row[num_pair_fields] = {r.mass,           fraction,      r.specific_volume, r.internal_energy,

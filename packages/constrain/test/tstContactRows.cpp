@@ -196,8 +196,14 @@ Vector2 const oblique{-std::sin(15 * Math::pi / 180), std::cos(15 * Math::pi / 1
 TinyScene apart(double gap, ShortSegments short_segments)
 {
   TinyScene scene(rectilinearMesh(uniform(12, 12), uniform(12, 12)),
-                  {{0, [](Quadrilateral const &q) { return cutBy(q, Plane2{oblique, 4.321}); }},
-                   {1, [gap](Quadrilateral const &q) { return cutBy(q, reversed({oblique, 4.321 + gap})); }}},
+                  {{0,
+                    [](Quadrilateral const &q) {
+                      return cutBy(q, Plane2{oblique, 4.321});
+                    }},
+                   {1,
+                    [gap](Quadrilateral const &q) {
+                      return cutBy(q, reversed({oblique, 4.321 + gap}));
+                    }}},
                   2, open_box);
   scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, short_segments));
   return scene;
@@ -223,8 +229,8 @@ double largestDifference(std::vector<double> const &f, std::vector<double> const
 
 } // namespace
 
-// The volume that an edge sweeps: of a bent one its ends count a quarter each and its middle half, of a short one, which
-// stays straight, its ends half each.
+// The volume that an edge sweeps: of a bent one its ends count a quarter each and its middle half, of a short one,
+// which stays straight, its ends half each.
 TEST(ContactRows, weightsAreThoseOfTheSweptVolumeWhereStressIsInBalanceWithThem)
 {
   TinyScene scene = apart(0.0, ShortSegments::Kept);

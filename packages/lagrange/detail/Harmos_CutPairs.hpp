@@ -20,67 +20,84 @@ struct CutVelocityGradient
   KOKKOS_FORCEINLINE_FUNCTION T trace() const { return xx + yy + hoop; }
 };
 
+/// Rows of a pack's pairs in the cut gradients; null where a pair has none.
+struct CutRows
+{
+  double const *row[pack_width];
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack column(int k, CutGradientColumn which) const
+  {
+    return packOf([&](int lane) { return row[lane] == nullptr ? 0.0 : row[lane][3 * k + which]; });
+  }
+};
+
 /// The cut gradients as the packed kernels read them.
 struct CutPairs
 {
-  int const *cell_region; // null: there are none
+  int const *first_row; // null: there are none
   int const *offset;
   RowPointer<double, 12> gradient;
 
   CutPairs(CutGradients const &cut, CellMaterialPairs const &pairs)
-      : cell_region(cut.cell_region.extent(0) > 0 ? cut.cell_region.data() : nullptr), offset(pairs.offset.data()),
+      : first_row(cut.first_row.extent(0) > 0 ? cut.first_row.data() : nullptr), offset(pairs.offset.data()),
         gradient(cut.gradient)
   {
   }
 
-  /// Whether a pack has a pair of a mixed cell.
+  /// Whether a pack has a pair with a row.
   KOKKOS_FORCEINLINE_FUNCTION bool any(int const cell[pack_width]) const
   {
-    if (cell_region == nullptr)
+    if (first_row == nullptr)
       return false;
     int highest = -1;
     for (int lane = 0; lane < pack_width; ++lane)
-      highest = Math::max(highest, cell_region[cell[lane]]);
+      highest = Math::max(highest, first_row[cell[lane]]);
     return highest >= 0;
   }
 
-  /// Column of corner k of each lane's pair; zero in lanes of pure cells.
-  KOKKOS_FORCEINLINE_FUNCTION Pack column(int const pair[pack_width], int const cell[pack_width], int k,
-                                          CutGradientColumn which) const
+  KOKKOS_FORCEINLINE_FUNCTION CutRows rowsOf(int const pair[pack_width], int const cell[pack_width]) const
   {
-    return packOf(
-        [&](int lane)
-        {
-          int const first = cell_region[cell[lane]];
-          return first < 0 ? 0.0 : gradient.row(first + pair[lane] - offset[cell[lane]])[3 * k + which];
-        });
+    CutRows rows;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      int const first = first_row[cell[lane]];
+      rows.row[lane] = first < 0 ? nullptr : gradient.row(first + pair[lane] - offset[cell[lane]]);
+    }
+    return rows;
   }
 
+  template <Geometry geometry>
   HARMOS_RARE_FUNCTION CutVelocityGradient<Pack>
   velocityGradient(int const pair[pack_width], int const cell[pack_width], Corners<Pack> const &v) const
   {
+    CutRows const rows = rowsOf(pair, cell);
     CutVelocityGradient<Pack> g = {};
     for (int k = 0; k < 4; ++k)
     {
-      Pack const x = column(pair, cell, k, CutGradientX), y = column(pair, cell, k, CutGradientY);
+      Pack const x = rows.column(k, CutGradientX), y = rows.column(k, CutGradientY);
       g.xx += x * v.x[k];
       g.xy += y * v.x[k];
       g.yx += x * v.y[k];
       g.yy += y * v.y[k];
-      g.hoop += column(pair, cell, k, CutHoop) * v.x[k];
+      if (geometry == Geometry::Axisymmetric)
+        g.hoop += rows.column(k, CutHoop) * v.x[k];
     }
     return g;
   }
 
   /// Forces of minus the stress (`s`, times the pair's over the cell's volume) on the corners, added to f.
+  template <Geometry geometry>
   HARMOS_RARE_FUNCTION void addForces(int const pair[pack_width], int const cell[pack_width],
                                       ScaledStress<Pack> const &s, Pack const &cell_volume, Corners<Pack> &f) const
   {
+    CutRows const rows = rowsOf(pair, cell);
     for (int k = 0; k < 4; ++k)
     {
-      Pack const x = column(pair, cell, k, CutGradientX), y = column(pair, cell, k, CutGradientY);
-      f.x[k] += cell_volume * (x * s.xx + y * s.xy + column(pair, cell, k, CutHoop) * s.hoop);
+      Pack const x = rows.column(k, CutGradientX), y = rows.column(k, CutGradientY);
+      f.x[k] += cell_volume * (x * s.xx + y * s.xy);
       f.y[k] += cell_volume * (x * s.xy + y * s.yy);
+      if (geometry == Geometry::Axisymmetric)
+        f.x[k] += cell_volume * (rows.column(k, CutHoop) * s.hoop);
     }
   }
 };

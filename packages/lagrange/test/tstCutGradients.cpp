@@ -34,8 +34,8 @@ struct CutCell
     std::vector<int> number(parts.size());
     std::iota(number.begin(), number.end(), 0);
     pairs.material = deviceCopy("material", number);
-    computeCutGradients(mesh, pairs, regions,
-                        deviceCopy("materials", std::vector<Material>(parts.size(), material)), where, cut);
+    computeCutGradients(mesh, pairs, regions, deviceCopy("materials", std::vector<Material>(parts.size(), material)),
+                        where, cut);
   }
 
   /// What the stress over a region does to a corner, per stress: its volume times the whole gradient, with the hoop's
@@ -112,8 +112,10 @@ TEST(CutGradients, areTheDerivativesOfTheMovedRegionsVolume)
         for (int corner = 0; corner < 4; ++corner)
           for (int d = 0; d < 2; ++d)
           {
-            auto const moved = [&](double by) { return movedVolume(cell.mesh, parts[part], corner, d, by, parts.size() > 1); };
-            EXPECT_NEAR(cell.force(parts[part], static_cast<int>(part), corner, d), (moved(u) - moved(-u)) / (2.0 * u), 1e-9);
+            auto const moved = [&](double by)
+            { return movedVolume(cell.mesh, parts[part], corner, d, by, parts.size() > 1); };
+            EXPECT_NEAR(cell.force(parts[part], static_cast<int>(part), corner, d), (moved(u) - moved(-u)) / (2.0 * u),
+                        1e-9);
           }
     }
 }

@@ -150,8 +150,7 @@ KOKKOS_INLINE_FUNCTION void shiftRegion(Input const &in, int cell, int pair, Mov
   Vector2 const centroid = region[0] + moments<1>(region, region[0]).centroid();
   double N[4];
   shapeFunctionsAt(c.q, centroid, N);
-  Vector2 const shift =
-      withinWalls(in, cell, c.q, region, centroid, interpolated(N, u));
+  Vector2 const shift = withinWalls(in, cell, c.q, region, centroid, interpolated(N, u));
   for (int i = 0; i < region.size; ++i)
     region[i] += shift;
 }

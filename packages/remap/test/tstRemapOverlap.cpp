@@ -106,7 +106,8 @@ TEST(Overlap, ofAClosedChord_isWhatItsMiddleSweeps)
         return moves ? Vector2{u, u} : Vector2{0.0, 0.0};
       });
   scene.remapped();
-  EXPECT_NEAR(scene.report.moved_overlap.volume, 0.5 * 0.1225 * (0.7 * std::sqrt(2.0) * h) * (std::sqrt(2.0) * u), 1e-16);
+  EXPECT_NEAR(scene.report.moved_overlap.volume, 0.5 * 0.1225 * (0.7 * std::sqrt(2.0) * h) * (std::sqrt(2.0) * u),
+              1e-16);
 }
 
 TEST(Overlap, aboutAnAxis_isAVolume)
