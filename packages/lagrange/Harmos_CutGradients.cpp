@@ -115,7 +115,8 @@ struct CutGradientFunctor
     for (int k = 0; k < count; ++k)
     {
       Material const &material = materials(pairs.material(pairs.offset(cell) + k));
-      double const share = actsInFullCells(where, material) ? full : 1.0;
+      double const part = area(regions.polygon(first + k)) / mesh.cell_area(cell);
+      double const share = actsInFullCells(where, material) ? full * Math::min(1.0, part / least_whole_part) : 1.0;
       if (!actsOnFilledRegion(where, material))
         continue;
       store(first + k, cell, q, full, share);

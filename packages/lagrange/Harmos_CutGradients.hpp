@@ -45,6 +45,10 @@ struct CutGradients
   View<double *[12]> gradient; // by row, 3 I + CutGradientColumn; rows follow the pairs of a cell [1/length]
 };
 
+/// Part of a full cell below which a solid's gradient goes back to the cell's mean, in proportion: the nodes of a tip
+/// are held by hardly anything, and would stretch it without bound.
+constexpr double least_whole_part = 0.02;
+
 /// Gradients of the filled regions of materials whose stress acts over them (actsOnFilledRegion), less those of their
 /// cells; the rows of the others are not written.
 ///
@@ -61,7 +65,8 @@ struct CutGradients
 /// N_I over the region. Sum over I: zero, and the hoop's the area over the ring's volume.
 ///
 /// In full cells alone (actsInFullCells) what is stored is the fullness w of the cell times that: the gradient is
-/// (1 - w) times the cell's mean and w times the region's, continuous where void opens.
+/// (1 - w) times the cell's mean and w times the region's, continuous where void opens. A region below least_whole_part
+/// of its cell has less of it, in proportion.
 ///
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.
 ///
