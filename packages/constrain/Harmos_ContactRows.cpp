@@ -274,6 +274,11 @@ struct RowBuilder
     double const part[3] = {own.first + 0.5 * traction.share[0] * ring.at(x[0]), own.middle,
                             own.second + 0.5 * traction.share[1] * ring.at(x[2])};
     double const total = part[0] + part[1] + part[2];
+    if (!(total > 0.0)) // on the axis
+    {
+      shapeFunctionsAt(q, traction.middle, weight);
+      return;
+    }
     for (int i = 0; i < 3; ++i)
     {
       double N[4];
