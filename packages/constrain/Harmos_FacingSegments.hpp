@@ -72,7 +72,7 @@ struct SampleGatherer
     Pack const y = inverse_h * (column(FacingY, i) - Pack(at.point[1]));
     Pack const distance_squared = x * x + y * y;
     Pack const length = inverse_h * column(FacingLength, i);
-    Pack const weight = fitWeight(length, distance_squared, inverse_h * column(FacingGap, i));
+    Pack const weight = fitWeight(length, distance_squared);
     Pack const cell_x = column(FacingCellX, i) - Pack(at.cell_centre[0]);
     Pack const cell_y = column(FacingCellY, i) - Pack(at.cell_centre[1]);
     auto const near =
@@ -83,7 +83,7 @@ struct SampleGatherer
       return;
     Pack const outward = select(of_a, Pack(1.0), Pack(-1.0)); // of a
     samples.pushPack(lanes, x, y, outward * column(FacingNormalX, i), outward * column(FacingNormalY, i), length,
-                     weight, select(of_a, Pack(0.0), Pack(1.0)));
+                     weight, inverse_h * column(FacingGap, i), select(of_a, Pack(0.0), Pack(1.0)));
   }
 };
 

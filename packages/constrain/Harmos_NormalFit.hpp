@@ -8,7 +8,7 @@
 namespace Harmos
 {
 
-/// Most segments that one fit takes (7 x 7 cells hold about 30 of both sides around a simple interface); a whole number
+/// Most segments that one fit takes (5 x 5 cells hold about 20 of both sides around a simple interface); a whole number
 /// of packs.
 constexpr int max_fit_samples = 192;
 
@@ -19,6 +19,7 @@ struct FitSample
   Vector2 normal; // unit, from material a to material b on both sides
   double length;
   double weight; // fitWeight
+  double gap;    // to what it faces
   int side;      // 0: of a, 1: of b
 };
 
@@ -27,7 +28,7 @@ struct FitSamples
 {
   static constexpr int room = max_fit_samples + pack_width; // pushPack writes whole packs
   int count = 0;
-  double x[room], y[room], normal_x[room], normal_y[room], length[room], weight[room];
+  double x[room], y[room], normal_x[room], normal_y[room], length[room], weight[room], gap[room];
   double of_b[room]; // 1 on side b, 0 on side a
 
   /// False, and no change, when there is no room.
@@ -42,7 +43,7 @@ struct FitSamples
   /// The chosen lanes of a pack of samples, as far as there is room.
   KOKKOS_FORCEINLINE_FUNCTION void pushPack(unsigned lanes, Pack const &its_x, Pack const &its_y,
                                             Pack const &its_normal_x, Pack const &its_normal_y, Pack const &its_length,
-                                            Pack const &its_weight, Pack const &its_side)
+                                            Pack const &its_weight, Pack const &its_gap, Pack const &its_side)
   {
     LaneCompressor const chosen(lanes);
     int const at = count;
@@ -52,6 +53,7 @@ struct FitSamples
     storePack(normal_y + at, chosen(its_normal_y));
     storePack(length + at, chosen(its_length));
     storePack(weight + at, chosen(its_weight));
+    storePack(gap + at, chosen(its_gap));
     storePack(of_b + at, chosen(its_side));
     count = Math::min(max_fit_samples, at + chosen.count);
   }
@@ -60,7 +62,7 @@ struct FitSamples
   KOKKOS_INLINE_FUNCTION void fillPack()
   {
     for (int j = count; j < numPacks(count) * pack_width; ++j)
-      set(j, {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0, 0});
+      set(j, {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0, 0.0, 0});
   }
 
 private:
@@ -72,18 +74,46 @@ private:
     normal_y[j] = s.normal[1];
     length[j] = s.length;
     weight[j] = s.weight;
+    gap[j] = s.gap;
     of_b[j] = s.side;
   }
 };
 
-constexpr double fit_reach = 4.0; // distance from which on segments have no weight [cells]
+constexpr double fit_reach = 2.5; // distance from which on segments have no weight [cells]
 
-/// Base weight L (1 - d^2/16)_+^2 / (1 + (g/0.3)^2) of segments at distance d with gap g. [cells]
-KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_squared, Pack const &gap)
+/// Base weight L (1 - d^2/2.5^2)_+^2 of segments at distance d. [cells]
+KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_squared)
 {
   Pack const kernel = Math::max(Pack(0.0), Pack(1.0) - distance_squared / Pack(fit_reach * fit_reach));
-  Pack const g = gap * Pack(1.0 / 0.3);
-  return length * kernel * kernel / (Pack(1.0) + g * g);
+  return length * kernel * kernel;
+}
+
+/// What the samples' gaps leave of their base weights w_j:
+///
+///   (1 - theta) / (1 + (g_j/0.3)^2) + theta / (1 + (g_j/0.003)^2),
+///
+/// theta from 0 to 1 (smoothly) as what touches, sum_j w_j / (1 + (g_j/0.003)^2), goes from 1 to 2 cells of both sides.
+///
+/// Where enough of both sides lies on each other it alone tells the normal: the sides of a wedge that opens beside it
+/// lean by what the wedge opens, and a force along their mean brakes what slides. Corners that touch in a short piece,
+/// and what has still to come, have the slopes of what is open near by.
+KOKKOS_INLINE_FUNCTION void weighByGaps(FitSamples &s)
+{
+  constexpr double least_closed = 1.0, closed = 2.0; // weighted lengths [cells]
+  Pack const one = 1.0, per_open = 1.0 / 0.3, per_closed = 1.0 / 0.003;
+  Pack sum = 0.0;
+  for (int j = 0; j < s.count; j += pack_width)
+  {
+    Pack const g = loadPack(s.gap + j) * per_closed;
+    sum += loadPack(s.weight + j) / (one + g * g);
+  }
+  double const part = Math::clamp((laneSum(sum) - least_closed) / (closed - least_closed), 0.0, 1.0);
+  Pack const theta = part * part * (3.0 - 2.0 * part);
+  for (int j = 0; j < s.count; j += pack_width)
+  {
+    Pack const gap = loadPack(s.gap + j), g = gap * per_open, c = gap * per_closed;
+    storePack(s.weight + j, loadPack(s.weight + j) * ((one - theta) / (one + g * g) + theta / (one + c * c)));
+  }
 }
 
 /// One pass of the fit: a weighted least-squares parabola y = alpha_s + beta t + gamma t^2 / 2 in the frame (t, n).
@@ -215,14 +245,15 @@ KOKKOS_INLINE_FUNCTION double reweigh(FitSamples const &s, ParabolaFit const &fi
 /// A robust local parabola, shared in slope and curvature by the two sides, each with its own offset; the curvature's
 /// ridge follows from the fit's own misfit, so that flat interfaces are averaged and curved ones are not flattened.
 /// Three passes: fit, turn the frame by the slope beta (|beta| <= 1), reweigh. Two where the first one leaves next to
-/// no misfit.
+/// no misfit. Before them the weights follow the gaps (weighByGaps).
 ///
-/// \param samples  Segments around the point; those of zero weight count for nothing.
+/// \param samples  Segments around the point; those of zero weight count for nothing. Its weights are changed.
 /// \param fallback Unit vector; returned when the samples have no mean normal (no sample at all).
 /// \return Unit normal from a to b.
 KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback)
 {
   samples.fillPack();
+  weighByGaps(samples);
   Pack mean_x = 0.0, mean_y = 0.0, weights = 0.0;
   for (int j = 0; j < samples.count; j += pack_width)
   {

@@ -99,29 +99,56 @@ KOKKOS_INLINE_FUNCTION void placeFilms(CellComponents const &components, Removal
   plan.error = filmedCell(components, plan, plan.void_part).error;
 }
 
-/// Three bodies, none a sliver, and void below `film_volume` that least squares have put along the first one: two
-/// films, along that one and between the other two, where that halves what the given plan misses of the bodies' first
-/// moments.
+/// Three bodies, none a sliver, and void below `film_volume`: two films, along one body that is cut off first and
+/// between the other two. That body is the one along which least squares have put all void, where two films halve what
+/// the given plan misses of the bodies' first moments; or any, where they leave a tenth of it.
 ///
 /// At a T, where two bodies face each other beyond a third, least squares see the bar: its edge goes on in all
 /// neighbours, the line between the two in those beyond it alone. All void came to lie along the bar, and the next
 /// centroids came from there: the ends of two blocks that part from each other stood off the third by a wedge that
-/// grew.
+/// grew. What the void misses there grows with it, until a sequence misses less that cuts a block's line on through the
+/// bar: the bar lost its tip to the block, and both hooked to each other.
 /// \param error Of the given plan: sum over the bodies of |first moment found - given|^2.
-KOKKOS_INLINE_FUNCTION RemovalPlan filmPlan(CellComponents const &components, SliverBounds const &slivers,
-                                            RemovalPlan const &given, double error)
+KOKKOS_INLINE_FUNCTION RemovalPlan filmPlan(ReconstructionField const &field, CellComponents const &components,
+                                            SliverBounds const &slivers, RemovalPlan const &given, double error)
 {
-  constexpr double much_better = 0.25;
+  constexpr double much_better = 0.25, with_another_first = 0.01; // of the error
   constexpr int open = 3;
-  if (components.count != 4 || given.parted || given.component[1] != open || error <= removal_tie)
+  if (components.count != 4 || given.parted || error <= removal_tie)
     return given;
   for (int k = 0; k < open; ++k)
     if (components.volume[k] < slivers.of(components, k))
       return given;
-  RemovalPlan plan = given;
-  plan.set(1, open, given.normal[0]);
-  placeFilms(components, plan);
-  return plan.error < much_better * error ? plan : given;
+  RemovalPlan best = given;
+  double least = error;
+  int unfinished = given.unfinished;
+  for (int first = 0; first < open; ++first)
+  {
+    bool const as_given = first == given.component[0] && given.component[1] == open;
+    ComponentSet const others = components.all() & ~(1u << first);
+    RemovalPlan plan = given;
+    plan.unfinished = 0;
+    plan.set(0, first, given.normal[0]);
+    if (!as_given)
+    {
+      CutNormal const cut = cutNormal(field, components, ReconstructionMethod::MomentOfFluid, slivers,
+                                      components.polygon, 1u << first, others);
+      plan.normal[0] = cut.normal;
+      plan.unfinished = cut.converged ? 0 : 1;
+    }
+    plan.set(1, open, plan.normal[0]);
+    for (int i = 2; i < 4; ++i) // placeFilms draws their line
+      plan.set(i, (first + i - 1) % open, {1.0, 0.0});
+    placeFilms(components, plan);
+    unfinished += plan.unfinished;
+    if (plan.error < (as_given ? much_better : with_another_first) * error && plan.error < least)
+    {
+      best = plan;
+      least = plan.error;
+    }
+  }
+  best.unfinished = unfinished;
+  return best;
 }
 
 } // namespace Harmos

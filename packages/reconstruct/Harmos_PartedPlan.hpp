@@ -119,8 +119,9 @@ KOKKOS_INLINE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, doubl
 ///
 /// A void that seems to lie between the bodies is bounded by faces along that line; each body's own centroid places it,
 /// and four free parameters would follow noise. A body that one cut leaves exact, as a rigid floor, seems to have no
-/// end there. In both cases only an exact cell is taken: an error, the neighbours' misfit included, of at most 1e-6 of
-/// that of cutting in sequence. Where bodies below film_volume go by least squares, tips leave no cell exact: there the
+/// end there. In both cases only an exact cell is taken: an error, the neighbours' misfit included, of at most 1e-4 of
+/// that of cutting in sequence (what bent edges leave of an exact one is up to 2e-6 of it just before a corner leaves
+/// the cell). Where bodies below film_volume go by least squares, tips leave no cell exact: there the
 /// sequence stays in both cases, and the neighbours' lines are not asked.
 ///
 /// What a sequence of cuts misses while corners pass each other is little in a cycle, and forgotten with it: the next
@@ -132,7 +133,7 @@ KOKKOS_INLINE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, doubl
 KOKKOS_INLINE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, CellComponents const &components,
                                               SliverBounds const &slivers, RemovalPlan const &sequence)
 {
-  constexpr double near_exact = 1e-6; // of the sequence's error
+  constexpr double near_exact = 1e-4; // of the sequence's error
   constexpr int max_steps = 20;
   if (components.count != 3 || components.material[2] != void_material || sequence.error <= removal_tie)
     return sequence;
@@ -231,7 +232,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &fi
     if (tip.error <= least_miss * least_miss * volume * volume && tip.error < plan.error)
       return tip;
   }
-  return filmPlan(components, films, plan, error);
+  return filmPlan(field, components, films, plan, error);
 }
 
 } // namespace Harmos

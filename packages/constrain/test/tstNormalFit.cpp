@@ -19,9 +19,9 @@ Vector2 fit(std::vector<FitSample> const &sample)
   return fitNormal(samples, {1.0, 0.0});
 }
 
-FitSample sampleAt(Vector2 const &x, Vector2 const &n, double length, int side)
+FitSample sampleAt(Vector2 const &x, Vector2 const &n, double length, int side, double gap = 0.0)
 {
-  return {x, n, length, laneOf(fitWeight(length, dot(x, x), 0.0), 0), side};
+  return {x, n, length, laneOf(fitWeight(length, dot(x, x)), 0), gap, side};
 }
 
 double angleBetween(Vector2 const &a, Vector2 const &b)
@@ -74,6 +74,37 @@ TEST(NormalFit, straightLineWithAWildSegment_isNearlyExact)
       s.push_back(sampleAt((0.9 * i) * t + (wild ? 0.33 : 0.0) * n, wild ? atAngle(140.0) : n, 0.9, side));
     }
   EXPECT_LT(angleBetween(fit(s), n), 5e-4);
+}
+
+// Two bodies lie on each other for two cells; beside that one of them has lifted off by a wedge of 5 degrees. What
+// touches has no part in the wedge, though its opening, below 0.14 cells, is no misfit that the robust weights drop.
+TEST(NormalFit, contactBesideAWedge_isNotTurned)
+{
+  Vector2 const n = atAngle(112.5), t = perpendicular(n), leaning = atAngle(117.5);
+  double const rise = std::tan(5.0 * Math::pi / 180.0);
+  for (double const closed_by : {1.0, 0.0}) // the wedge begins beside the row, or at it
+  {
+    std::vector<FitSample> s;
+    for (int i = -5; i <= 5; ++i)
+    {
+      double const at = 0.45 * i, gap = std::max(0.0, (at - closed_by) * rise);
+      s.push_back(sampleAt(at * t, n, 0.45, 0, gap));
+      s.push_back(sampleAt(at * t + gap * n, gap > 0.0 ? leaning : n, 0.45, 1, gap));
+    }
+    EXPECT_LT(angleBetween(fit(s), n), 3e-4) << "closed to " << closed_by;
+  }
+}
+
+// A short facet that touches, tilted by 10 degrees, between straight sides a tenth of a cell apart: they tell more.
+TEST(NormalFit, shortFacetThatTouches_doesNotDecideAlone)
+{
+  Vector2 const n = atAngle(60.0), t = perpendicular(n);
+  std::vector<FitSample> s{sampleAt({0.0, 0.0}, atAngle(70.0), 0.3, 0), sampleAt({0.0, 0.0}, atAngle(70.0), 0.3, 1)};
+  for (int i = -5; i <= 5; ++i)
+    for (int side = 0; side < 2; ++side)
+      if (i != 0)
+        s.push_back(sampleAt((0.45 * i) * t + (0.1 * side) * n, n, 0.45, side, 0.1));
+  EXPECT_LT(angleBetween(fit(s), n), 0.02);
 }
 
 TEST(NormalFit, noisyLine_isAveraged)
