@@ -8,7 +8,7 @@
 namespace Harmos
 {
 
-/// Most segments that one fit takes (5 x 5 cells hold about 20 of both sides around a simple interface); a whole number
+/// Most segments that one fit takes (7 x 7 cells hold about 30 of both sides around a simple interface); a whole number
 /// of packs.
 constexpr int max_fit_samples = 192;
 
@@ -79,9 +79,9 @@ private:
   }
 };
 
-constexpr double fit_reach = 2.5; // distance from which on segments have no weight [cells]
+constexpr double fit_reach = 3.0; // distance from which on segments have no weight [cells]
 
-/// Base weight L (1 - d^2/2.5^2)_+^2 of segments at distance d. [cells]
+/// Base weight L (1 - d^2/9)_+^2 of segments at distance d. [cells]
 KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_squared)
 {
   Pack const kernel = Math::max(Pack(0.0), Pack(1.0) - distance_squared / Pack(fit_reach * fit_reach));
@@ -92,14 +92,15 @@ KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_s
 ///
 ///   (1 - theta) / (1 + (g_j/0.3)^2) + theta / (1 + (g_j/0.003)^2),
 ///
-/// theta from 0 to 1 (smoothly) as what touches, sum_j w_j / (1 + (g_j/0.003)^2), goes from 1 to 2 cells of both sides.
+/// theta from 0 to 1 (smoothly) as what touches, sum_j w_j / (1 + (g_j/0.003)^2), goes from 1.5 to 3 cells of both
+/// sides.
 ///
 /// Where enough of both sides lies on each other it alone tells the normal: the sides of a wedge that opens beside it
 /// lean by what the wedge opens, and a force along their mean brakes what slides. Corners that touch in a short piece,
 /// and what has still to come, have the slopes of what is open near by.
 KOKKOS_INLINE_FUNCTION void weighByGaps(FitSamples &s)
 {
-  constexpr double least_closed = 1.0, closed = 2.0; // weighted lengths [cells]
+  constexpr double least_closed = 1.5, closed = 3.0; // weighted lengths [cells]
   Pack const one = 1.0, per_open = 1.0 / 0.3, per_closed = 1.0 / 0.003;
   Pack sum = 0.0;
   for (int j = 0; j < s.count; j += pack_width)

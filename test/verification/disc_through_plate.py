@@ -23,9 +23,8 @@ def test_disc_goes_through_and_everything_is_conserved():
 
 
 # The end of this run follows the last digits of the start: one run's overlap says little. Eight places of the disc gave
-# 0.49 to 0.59 (thirteen 0.41 to 0.45 while solids' stress acted along the means of cut cells); with one row a facet, where
-# tilted facets are through with their ends, 0.79; where fragments that lie beyond an outflow face after one step stayed there,
-# up to 0.68.
+# 0.49 to 0.59 while what is open leaned the normals of what touches, and fits reached 4 cells (0.22 to 0.25 with 3 cells,
+# 0.34 to 0.37 with 4); before, with one row a facet, where tilted facets are through with their ends, 0.79.
 def test_moved_regions_overlap_little():
     overlaps, polygons, largest = [], [], []
     for offset in (0.0, 1e-13, 2e-13):
@@ -38,33 +37,46 @@ def test_moved_regions_overlap_little():
         largest.append(max(r["polygon_overlap_largest"]))
         clean(r)
     print("  cells over the whole run:", ", ".join(f"{o:.3f}" for o in overlaps))
-    check("median overlap of the moved regions, cells over the whole run", sorted(overlaps)[1], 0.65)
-    check("the largest", max(overlaps), 0.75)
-    # Polygon against polygon, whatever void is left: eleven offsets gave 3.3 to 5.4 cells over the run, and 0.010 to
-    # 0.0265 of a cell at most in any cell and cycle (median 0.0175), mostly among fragments after 3.9 us.
+    check("median overlap of the moved regions, cells over the whole run", sorted(overlaps)[1], 0.4)
+    check("the largest", max(overlaps), 0.5)
+    # Polygon against polygon, whatever void is left: mostly among fragments after 3.9 us.
     print("  polygon by polygon, cells over the whole run:", ", ".join(f"{p:.2f}" for p in polygons))
-    check("the largest, cells over the whole run", max(polygons), 8.0)
+    check("the largest, cells over the whole run", max(polygons), 5.0)
     print("  in any one cell and cycle, of the cell:", ", ".join(f"{p:.4f}" for p in largest))
-    check("median of the largest polygon overlap in any one cell and cycle", sorted(largest)[1], 0.03)
-    check("the largest", max(largest), 0.05)
+    check("median of the largest polygon overlap in any one cell and cycle", sorted(largest)[1], 0.02)
+    check("the largest", max(largest), 0.03)
 
 
-def test_upper_and_lower_half_are_mirror_images_while_round_off_is_small():
-    """Round-off decides on which side of the line y = 0 splinters are; where they bounded what is remapped, both halves were
-    apart by 1.2e-3 of a cell and 1 GPa after 0.4 us (now by 5e-6 and 5 MPa)."""
-    r = harmos("disc_through_plate/deck.yaml", {"output/fields/every_time": 0.0, "run/end_time": 4.0e-7})
+def apart(place):
+    """Largest difference of the two halves at 0.4 us: volume fractions, pressures in GPa."""
+    r = harmos("disc_through_plate/deck.yaml",
+               {"bodies/disc/center": f"[{place!r}, 0.0]", "output/fields/every_time": 0.0, "run/end_time": 4.0e-7})
     with h5py.File(sorted(r.directory.glob("fields_*.h5"))[-1]) as file:
         cell, material = file["/pairs/cell"][:], file["/pairs/material"][:]
         part, pressure = file["/pairs/volume_fraction"][:], file["/pairs/pressure"][:]
     clean(r)
-    for number, name in enumerate(("disc", "plate")):
+    fractions, pressures = [], []
+    for number in range(2):
         filled, p = numpy.zeros(120 * 160), numpy.zeros(120 * 160)
         mine = material == number
         filled[cell[mine]], p[cell[mine]] = part[mine], pressure[mine]
         filled, p = filled.reshape(120, 160), p.reshape(120, 160)
         both = (filled > 0.05) & (filled[::-1] > 0.05)
-        check(f"{name}: volume fractions, apart", float(abs(filled - filled[::-1]).max()), 1e-4)
-        check(f"{name}: pressures in GPa, apart", float(abs(p - p[::-1])[both].max()) * 1e-9, 0.1)
+        fractions.append(float(abs(filled - filled[::-1]).max()))
+        pressures.append(float(abs(p - p[::-1])[both].max()) * 1e-9)
+    return max(fractions), max(pressures)
+
+
+def test_upper_and_lower_half_are_mirror_images_while_round_off_is_small():
+    """Round-off decides on which side of the line y = 0 splinters are; where they bounded what is remapped, both halves were
+    apart by 1.2e-3 of a cell and 1 GPa after 0.4 us. Differences grow from 1e-13 to some 1e-7, and in one place of three or
+    so to 1e-4 and more, where a facet gets two rows on one side and one on the other."""
+    places = [apart(-0.005 - 0.00004 * i) for i in range(5)]
+    fractions, pressures = (sorted(values) for values in zip(*places))
+    print("  volume fractions:", ", ".join(f"{f:.1e}" for f in fractions))
+    check("volume fractions, apart, median of five places", fractions[2], 1e-4)
+    check("pressures in GPa, apart, median", pressures[2], 0.1)
+    check("volume fractions, apart, the largest", fractions[4], 0.05)
 
 
 run(globals())
