@@ -343,7 +343,7 @@ struct RowBuilder
     double const full = fullness(mesh, pairs, regions, a.cell);
     double const part = balance == ShortSegments::Kept ? 1.0 : full;
     Vector2 const half = (0.5 * a.length) * perpendicular(a.normal);
-    bool const bends = a.parts * a.length >= shortest_bent_edge * a.cell_size;
+    bool const bends = a.parts * a.length >= options.shortest_segment * a.cell_size;
     if (a.parts == 1 || bends) // halves of a bent segment have its middle as an end
     {
       found.middle = a.point + part * (a.midpoint - a.point);

@@ -28,19 +28,19 @@ KOKKOS_INLINE_FUNCTION EdgeWeights edgeWeights(AreaWeight const &ring, Vector2 c
           straight * (r_a + 2.0 * r_b) / 6.0 + bend * (r_m + 2.0 * r_b) / 12.0};
 }
 
-/// Length below which an edge stays straight, in cell sizes: its traction goes to what is beyond its ends
-/// (ShortSegments::Shared), which then is what its moved image asks for.
-constexpr double shortest_bent_edge = 0.1;
-
 /// How far an edge of a region bends, in a cell of area `cell_area` that is full by `full`. On a cell face, where two
 /// shape functions vanish, motion is linear and images are straight.
 ///
+/// \param shortest Length below which an edge stays straight, in cell sizes (ConstraintOptions::shortest_segment): its
+///                 traction goes to what is beyond its ends (ShortSegments::Shared), which then is what its moved image
+///                 asks for.
 /// \param N_middle Shape functions at the edge's middle.
-KOKKOS_INLINE_FUNCTION double bendOf(Vector2 const &edge, double cell_area, double full, double const N_middle[4])
+KOKKOS_INLINE_FUNCTION double bendOf(Vector2 const &edge, double cell_area, double full, double shortest,
+                                     double const N_middle[4])
 {
   constexpr double least = 1e-6; // of a shape function, inside
   bool const inside = Math::min(Math::min(N_middle[0], N_middle[1]), Math::min(N_middle[2], N_middle[3])) > least;
-  return inside && dot(edge, edge) >= shortest_bent_edge * shortest_bent_edge * cell_area ? full : 0.0;
+  return inside && dot(edge, edge) >= shortest * shortest * cell_area ? full : 0.0;
 }
 
 } // namespace Harmos

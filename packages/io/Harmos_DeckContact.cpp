@@ -148,6 +148,7 @@ void convertConstraint(DeckChecker const &check, ParameterList const &list, Deck
   {
     deck.constraint.shortest_segment = list.get<double>("shortest_segment");
     deck.constraint.exposed_face = list.get<double>("exposed_face");
+    deck.lagrange.shortest_bent_edge = deck.remap.shortest_bent_edge = deck.constraint.shortest_segment;
   }
 }
 

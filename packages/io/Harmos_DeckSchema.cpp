@@ -254,7 +254,7 @@ void addNumerics(ParameterList &list)
   {
     ParameterList &on_segments = c.sublist(std::string("method = ") + method);
     add(on_segments, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),
-        "interface segments shorter than this part of a cell carry no multiplier");
+        "interface segments shorter than this part of a cell carry no multiplier, and are moved as straight edges");
     add(on_segments, "exposed_face", constraint.exposed_face, number(between(0.0, 1.0)),
         "least exposed part of a cell face that carries a multiplier");
   }

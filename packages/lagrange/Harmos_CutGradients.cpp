@@ -12,7 +12,7 @@ namespace
 
 /// Derivatives of a region's volume by the positions of the cell's corners, as the region's outline is moved.
 KOKKOS_INLINE_FUNCTION void volumeDerivatives(Quadrilateral const &q, Region const &region, AreaWeight const &ring,
-                                              double full, Vector2 derivative[4])
+                                              double full, double shortest, Vector2 derivative[4])
 {
   for (int k = 0; k < 4; ++k)
     derivative[k] = {0.0, 0.0};
@@ -28,7 +28,7 @@ KOKKOS_INLINE_FUNCTION void volumeDerivatives(Quadrilateral const &q, Region con
       N[k] = N_next[k];
     shapeFunctionsAt(q, b, N_next);
     shapeFunctionsAt(q, 0.5 * (a + b), N_middle);
-    EdgeWeights const w = edgeWeights(ring, a, b, bendOf(b - a, cell_area, full, N_middle));
+    EdgeWeights const w = edgeWeights(ring, a, b, bendOf(b - a, cell_area, full, shortest, N_middle));
     Vector2 const normal{b[1] - a[1], a[0] - b[0]}; // times the length
     for (int k = 0; k < 4; ++k)
       derivative[k] += (w.first * N[k] + w.middle * N_middle[k] + w.second * N_next[k]) * normal;
@@ -65,6 +65,7 @@ struct CutGradientFunctor
   FilledRegions regions;
   View<Material *> materials;
   CutCellStress where;
+  double shortest_bent_edge;
   View<int *> first_row;
   View<double *[12]> gradient;
 
@@ -82,7 +83,7 @@ struct CutGradientFunctor
     }
     bool const about_axis = mesh.geometry == Geometry::Axisymmetric;
     Vector2 derivative[4];
-    volumeDerivatives(q, region, ring, full, derivative);
+    volumeDerivatives(q, region, ring, full, shortest_bent_edge, derivative);
     double hoop[4] = {};
     if (about_axis)
       hoopMeans(q, region, hoop);
@@ -130,7 +131,8 @@ struct CutGradientFunctor
 } // namespace
 
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                         View<Material *> const &materials, CutCellStress where, CutGradients &cut)
+                         View<Material *> const &materials, CutCellStress where, double shortest_bent_edge,
+                         CutGradients &cut)
 {
   if (static_cast<int>(cut.first_row.extent(0)) != mesh.num_cells)
     cut.first_row =
@@ -140,8 +142,9 @@ void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, Fille
   if (static_cast<int>(cut.gradient.extent(0)) < count)
     cut.gradient = View<double *[12]>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::cut_gradient"),
                                       count + count / 8);
-  Kokkos::parallel_for("Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
-                       CutGradientFunctor{mesh, pairs, regions, materials, where, cut.first_row, cut.gradient});
+  Kokkos::parallel_for(
+      "Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
+      CutGradientFunctor{mesh, pairs, regions, materials, where, shortest_bent_edge, cut.first_row, cut.gradient});
 }
 
 } // namespace Harmos

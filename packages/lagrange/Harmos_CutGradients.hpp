@@ -68,11 +68,13 @@ constexpr double least_whole_part = 0.02;
 /// (1 - w) times the cell's mean and w times the region's, continuous where void opens. A region below least_whole_part
 /// of its cell has less of it, in proportion.
 ///
+/// \param shortest_bent_edge Of the cell size; that of bendOf.
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.
 ///
 /// Moes, Dolbow & Belytschko, Int. J. Numer. Meth. Engng 46 (1999) 131: integrals over the parts of a cut element.
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
-                         View<Material *> const &materials, CutCellStress where, CutGradients &cut);
+                         View<Material *> const &materials, CutCellStress where, double shortest_bent_edge,
+                         CutGradients &cut);
 
 } // namespace Harmos
 

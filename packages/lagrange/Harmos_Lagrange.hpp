@@ -22,6 +22,7 @@ enum class Closure
 struct LagrangeOptions
 {
   CutCellStress cut_cell_stress = CutCellStress::FullCells;
+  double shortest_bent_edge = 0.1; // of the cell size; that of bendOf
   Closure closure = Closure::EqualStrain;
   double linear_viscosity = 0.06;
   double quadratic_viscosity = 1.2;

@@ -40,6 +40,7 @@ struct RemapOptions
   bool swept_faces = true;        // pure regions by swept faces; false: intersection everywhere
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
                                       // where damage is tracked, which is carried in its place
+  double shortest_bent_edge = 0.1;    // of the cell size; edges inside cells below it stay straight (bendOf)
   bool measure_overlap = false;       // RemapReport::moved_overlap; changes nothing else
 };
 

@@ -143,6 +143,18 @@ TEST(Deck, Pressure_isMetByTheInitialState)
   EXPECT_EQ(deck.bodies[3].internal_energy, 0.0);
 }
 
+// Rows, stress and moved outlines take the same edges for too short to bend.
+TEST(Deck, shortestSegment_isOneForRowsStressAndOutlines)
+{
+  for (double const shortest : {0.0, 0.1, 0.3})
+  {
+    Deck const deck = example({"numerics/constraint/shortest_segment=" + std::to_string(shortest)});
+    EXPECT_EQ(deck.constraint.shortest_segment, shortest);
+    EXPECT_EQ(deck.lagrange.shortest_bent_edge, shortest);
+    EXPECT_EQ(deck.remap.shortest_bent_edge, shortest);
+  }
+}
+
 TEST(Deck, Defaults_areThoseOfTheOptionStructs)
 {
   Deck const deck = example();

@@ -35,7 +35,7 @@ struct CutCell
     std::iota(number.begin(), number.end(), 0);
     pairs.material = deviceCopy("material", number);
     computeCutGradients(mesh, pairs, regions, deviceCopy("materials", std::vector<Material>(parts.size(), material)),
-                        where, cut);
+                        where, LagrangeOptions().shortest_bent_edge, cut);
   }
 
   /// What the stress over a region does to a corner, per stress: its volume times the whole gradient, with the hoop's

@@ -74,7 +74,7 @@ KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Move
     Vector2 const next = still[still.next(i)], middle = 0.5 * (x + next);
     double N_next[4], N_middle[4];
     shapeFunctionsAt(q, middle, N_middle);
-    double const bend = bendOf(next - x, cell_area, full, N_middle);
+    double const bend = bendOf(next - x, cell_area, full, in.options.shortest_bent_edge, N_middle);
     if (!(bend > 0.0))
       continue;
     shapeFunctionsAt(q, x, N);
