@@ -325,8 +325,8 @@ Two blocks under one pressure meet and slide on each other at 2e-3 of the speed 
 
 """
 AFTER_ITERATIONS = """
-Without friction the goal is met, up to 10,000 multipliers: at most 36, and 10,000 take no more than 1,000. With friction (a normal and a tangential multiplier a row) up to 1,000 rows, at most 45; **among 10,000 rows with friction 50 is exceeded** in a few of 200 cycles, most 200: somewhere a row couples its two impulses so that friction's bounds are thrown to and fro
-([decision 0010](decisions/0010-projected-newton.md)). All cycles meet the tolerance. Mortar multipliers take three without friction and at most 35 with it, up to 40,000 of them. Until the path inside the bounds was there, midpoints took up to 108 (1,000 columns) and 178 (10,000 columns) over 200 cycles, with friction 1,000.
+Without friction the goal is met, up to 10,000 multipliers: at most 38, and 10,000 take no more than 1,000. With friction (a normal and a tangential multiplier a row) up to 2,500 rows (5,080 multipliers, the same run with 2,500 columns: 24.9 in the mean, 48 at most); among 5,000 rows (10,056 multipliers) one of 200 cycles needs more (26.1, 59), and **among 10,000 rows with friction
+50 is exceeded** in ten of 200 cycles, most 204: somewhere a row couples its two impulses so that friction's bounds are thrown to and fro ([decision 0010](decisions/0010-projected-newton.md)). All cycles meet the tolerance. With the normals of [decision 0024](decisions/0024-what-touches-gives-the-normal.md) five runs of 200 cycles with some 2,000 multipliers and friction have one cycle above 50 each in two of them (60, 115), with those before none (at most 48). Mortar multipliers take three without friction and at most 35 with it, up to 40,000 of them. Until the path inside the bounds was there, midpoints took up to 108 (1,000 columns) and 178 (10,000 columns) over 200 cycles, with friction 1,000.
 """
 
 if __name__ == "__main__":
