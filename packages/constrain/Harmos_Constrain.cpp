@@ -176,10 +176,11 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   }
   Mesh const cells = borrowed(mesh);
   NodeMaterialPairs const dofs = borrowed(dof_nodes);
+  bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
+  double const compliance = is_explicit || sharesMultipliers(options.placement) ? 0.0 : rubbing_compliance;
   ContactSystem const system =
       buildContactSystem(rows, dofs, borrowed(conditions), borrowed(dof_mass), {borrowed(velocity_n), table_n},
-                         {borrowed(predicted), table}, bodies, dt, arrays);
-  bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
+                         {borrowed(predicted), table}, bodies, dt, compliance, arrays);
   MultiplierSolution const solution = is_explicit
                                           ? explicitImpulses({mesh, pairs, {velocity_n, table_n}, pair_stress}, system,
                                                              rows, dt, options, exchange, arrays)

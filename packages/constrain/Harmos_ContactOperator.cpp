@@ -65,13 +65,14 @@ void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> cons
   velocityChange(system_, x, change_);
   bodyVelocityChange(system_, x, exchange_, body_change_, work_);
   ContactSystem const s = system_;
-  View<double *[2]> const change = change_, result = out;
+  View<double *[2]> const change = change_, impulse = x, result = out;
   View<double *[3]> const body_change = body_change_;
   launchFor(
       "Harmos::constrain::product", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
-          result(row, k) = rowVelocity(s, change, body_change, row, k);
+          result(row, k) = rowVelocity(s, change, body_change, row, k) +
+                           s.row(row).compliance * s.diagonal(row, k) * impulse(row, k);
       });
 }
 

@@ -7,7 +7,8 @@
 namespace Harmos
 {
 
-/// The operator A = G M^-1 P G^T of a contact system, applied without a matrix, with the exchange of multipliers.
+/// The operator A = G M^-1 P G^T + c D of a contact system (c: compliance of its rows), applied without a matrix, with
+/// the exchange of multipliers.
 class ContactOperator
 {
 public:

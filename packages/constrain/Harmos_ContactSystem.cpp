@@ -153,7 +153,7 @@ KOKKOS_INLINE_FUNCTION double approach(ContactRow const &row, double relative, M
 
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.
 void fillRows(ContactRows const &rows, Motion const &before, Motion const &predicted, View<int *> const &free_number,
-              double dt, ContactSystem &system)
+              double dt, double compliance, ContactSystem &system)
 {
   ContactSystem const s = system;
   View<ContactRow *> const row = rows.row;
@@ -165,12 +165,14 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         out.friction = r.friction;
         out.normal = r.normal;
         out.diagonal[0] = out.diagonal[1] = 0.0;
+        bool deforms = false;
         for (int side = 0; side < 2; ++side)
         {
           int const body = side == 0 ? r.body_a : r.body_b;
           for (int k = 0; k < 4; ++k)
           {
             int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
+            deforms = deforms || dof >= 0;
             out.weight[4 * side + k] = dof < 0 ? 0.0 : side == 0 ? -r.weight_a[k] : r.weight_b[k];
           }
           out.free_body[side] = body >= 0 ? free_number(body) : -1;
@@ -178,6 +180,7 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
           if (body >= 0)
             out.arm[side] = (side == 0 ? r.point : r.point + r.gap * r.normal) - predicted.bodies.body(body).centre;
         }
+        out.compliance = deforms && !r.tied && r.friction > 0.0 ? compliance : 0.0;
         Vector2 const relative = relativeVelocity(r, predicted.velocity, predicted.bodies);
         double const along = dot(r.normal, relative);
         out.predicted[0] = r.tied ? along : approach(r, along, before, dt);
@@ -236,7 +239,7 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt, WorkArrays const &work)
+                                 double dt, double compliance, WorkArrays const &work)
 {
   ContactSystem system;
   system.num_rows = rows.count;
@@ -246,7 +249,7 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   numberDofs(rows, dof_nodes.num_dof_nodes, system, work);
   gatherDofs(dof_nodes, conditions, dof_mass, system, work);
   View<int *> const free_number = numberFreeBodies(bodies, system, work);
-  fillRows(rows, before, predicted, free_number, dt, system);
+  fillRows(rows, before, predicted, free_number, dt, compliance, system);
   ContactSystem const s = system;
   launchFor(
       "Harmos::constrain::rowSums", rows.num_own, KOKKOS_LAMBDA(int i) {

@@ -51,6 +51,7 @@ struct SystemRow
   double weight[8];    // signed shape functions, - for a, + for b
   double predicted[2]; // b
   double diagonal[2];  // row sums of |G M^-1 P G^T|, deformable part; own rows
+  double compliance;   // of the diagonal: how far the row gives way to its impulse
   int free_body[2];    // free body of side a, b: its compact number, -1: none
   Vector2 arm[2];      // point - centre of the body of side a, of side b
 };
@@ -58,8 +59,9 @@ struct SystemRow
 /// The complementarity problem of the contact rows, without a matrix.
 ///
 /// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
-/// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*), b = G v* + max(gap, 0)/dt (tied: no
-/// gap). Dof nodes that rows touch are numbered compactly; rows_of gathers in key order.
+/// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*) + c D p, b = G v* + max(gap, 0)/dt
+/// (tied: no gap), c the compliance of the row and D its diagonal. Dof nodes that rows touch are numbered compactly;
+/// rows_of gathers in key order.
 struct ContactSystem
 {
   int num_rows = 0; // with the halo's
@@ -134,11 +136,18 @@ KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<doub
   return relative;
 }
 
+/// Compliance of rows that rub. Impulses along n and across it that alternate from row to row move next to nothing
+/// (eigenvalues of A down to 1e-8 of the row sums), and friction's bounds follow them: steps along such patterns are
+/// large and settle nowhere. With this on the diagonal a row that carries p moves by a millionth of what p alone would
+/// give it.
+constexpr double rubbing_compliance = 1e-6;
+
 /// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
+/// \param compliance Of rows that rub and have deformable dofs; others have none.
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt, WorkArrays const &work = {});
+                                 double dt, double compliance = 0.0, WorkArrays const &work = {});
 
 /// Change of the dof velocities by impulses: M^-1 P G^T p. [m/s]
 /// \param impulse num_rows (halo rows included); \param change num_dofs

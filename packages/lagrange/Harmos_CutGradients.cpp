@@ -62,6 +62,7 @@ struct CutGradientFunctor
 {
   Mesh mesh;
   CellMaterialPairs pairs;
+  View<double *[num_pair_fields]> record;
   FilledRegions regions;
   View<Material *> materials;
   CutCellStress where;
@@ -106,6 +107,15 @@ struct CutGradientFunctor
     }
   }
 
+  /// How far a solid's part of a full cell has the gradient of what it fills.
+  KOKKOS_INLINE_FUNCTION double ownShare(int pair, Material const &material, double part) const
+  {
+    double const strain =
+        Math::max(Math::fabs(material.density0 * record(pair, SpecificVolume) - 1.0), record(pair, PlasticStrain));
+    double const intact = Math::min(1.0, Math::max(0.0, (worn_strain - strain) / (worn_strain - intact_strain)));
+    return Math::max(intact, Math::min(1.0, part / least_whole_part));
+  }
+
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
     int const cell = regions.mixed_cell(i);
@@ -117,7 +127,8 @@ struct CutGradientFunctor
     {
       Material const &material = materials(pairs.material(pairs.offset(cell) + k));
       double const part = area(regions.polygon(first + k)) / mesh.cell_area(cell);
-      double const share = actsInFullCells(where, material) ? full * Math::min(1.0, part / least_whole_part) : 1.0;
+      double const share =
+          actsInFullCells(where, material) ? full * ownShare(pairs.offset(cell) + k, material, part) : 1.0;
       if (!actsOnFilledRegion(where, material))
         continue;
       store(first + k, cell, q, full, share);
@@ -130,7 +141,8 @@ struct CutGradientFunctor
 
 } // namespace
 
-void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs,
+                         View<double *[num_pair_fields]> const &record, FilledRegions const &regions,
                          View<Material *> const &materials, CutCellStress where, double shortest_bent_edge,
                          CutGradients &cut)
 {
@@ -142,9 +154,9 @@ void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, Fille
   if (static_cast<int>(cut.gradient.extent(0)) < count)
     cut.gradient = View<double *[12]>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::cut_gradient"),
                                       count + count / 8);
-  Kokkos::parallel_for(
-      "Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
-      CutGradientFunctor{mesh, pairs, regions, materials, where, shortest_bent_edge, cut.first_row, cut.gradient});
+  Kokkos::parallel_for("Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
+                       CutGradientFunctor{mesh, pairs, record, regions, materials, where, shortest_bent_edge,
+                                          cut.first_row, cut.gradient});
 }
 
 } // namespace Harmos

@@ -45,9 +45,13 @@ struct CutGradients
   View<double *[12]> gradient; // by row, 3 I + CutGradientColumn; rows follow the pairs of a cell [1/length]
 };
 
-/// Part of a full cell below which a solid's gradient goes back to the cell's mean, in proportion: the nodes of a tip
-/// are held by hardly anything, and would stretch it without bound.
+/// Part of a full cell below which the gradient of a worn solid goes back to the cell's mean, in proportion: the nodes
+/// of a tip are held by hardly anything, and would stretch it without bound.
 constexpr double least_whole_part = 0.02;
+
+/// Strain (of volume, or equivalent plastic) up to which a tip is intact and keeps its own gradient whatever its size,
+/// and from which it is worn; between them in proportion.
+constexpr double intact_strain = 0.05, worn_strain = 0.15;
 
 /// Gradients of the filled regions of materials whose stress acts over them (actsOnFilledRegion), less those of their
 /// cells; the rows of the others are not written.
@@ -65,14 +69,15 @@ constexpr double least_whole_part = 0.02;
 /// N_I over the region. Sum over I: zero, and the hoop's the area over the ring's volume.
 ///
 /// In full cells alone (actsInFullCells) what is stored is the fullness w of the cell times that: the gradient is
-/// (1 - w) times the cell's mean and w times the region's, continuous where void opens. A region below least_whole_part
-/// of its cell has less of it, in proportion.
+/// (1 - w) times the cell's mean and w times the region's, continuous where void opens. A worn region (worn_strain)
+/// below least_whole_part of its cell has less of it, in proportion.
 ///
 /// \param shortest_bent_edge Of the cell size; that of bendOf.
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.
 ///
 /// Moes, Dolbow & Belytschko, Int. J. Numer. Meth. Engng 46 (1999) 131: integrals over the parts of a cut element.
-void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs,
+                         View<double *[num_pair_fields]> const &record, FilledRegions const &regions,
                          View<Material *> const &materials, CutCellStress where, double shortest_bent_edge,
                          CutGradients &cut);
 

@@ -85,12 +85,10 @@ def test_gases_of_one_pressure_rest_beside_an_oblique_interface():
 
 
 # At 35 degrees the line passes nodes at 2e-4 of a cell: the tips there are merged with their neighbours, and lose their pressure.
-# In full cells tips below 0.02 of a cell follow its mean strain: 0.012 to 0.047 at 20 degrees.
 def test_stress_over_what_solids_fill_answers_a_uniform_pressure_with_uniform_tractions():
-    everywhere = [(method, angle, 1e-6) for method in ("multipliers", "vital vertices", "mortar") for angle in (20.0, 45.0)]
-    everywhere += [("multipliers", 35.0, 0.05), ("vital vertices", 35.0, 0.1)]
-    full = [(method, 20.0, 0.08) for method in ("multipliers", "vital vertices", "mortar")]
-    full += [("multipliers", 45.0, 1e-6), ("vital vertices", 45.0, 1e-6), ("mortar", 45.0, 1e-6), ("multipliers", 35.0, 0.08)]
+    exact = [(method, angle, 1e-6) for method in ("multipliers", "vital vertices", "mortar") for angle in (20.0, 33.0, 45.0)]
+    everywhere = exact + [("multipliers", 35.0, 0.05), ("vital vertices", 35.0, 0.1)]
+    full = exact + [("multipliers", 35.0, 0.08)]
     for where, cases in (("filled regions", everywhere), ("full cells", full)):
         for method, angle, bound in cases:
             METHODS["over regions"] = {**METHODS[method], "numerics/cut_cell_stress": where}
@@ -128,15 +126,14 @@ def test_mortar_multipliers_halve_the_deviation_of_midpoints():
 
 
 def test_iterations_stay_below_fifty_where_many_places_settle():
-    # Over 200 cycles active sets and projected steps without the path inside the bounds take up to 108 and 84. With friction the
-    # path may end beside the solution: of five times 200 cycles, 900 to 1,100 columns, two took more than 50, 60 and 115.
+    # Over 200 cycles active sets and projected steps without the path inside the bounds take up to 108 and 84, and rows that rub
+    # without giving way by a millionth up to 115.
     for cycles, columns in ((20, 100), (200, 1000)):
         for friction in (False, True):
             found = iterations_of_strip(columns, friction, "projected newton", cycles=cycles)
             what = f"{found['multipliers']:.0f} multipliers{', friction' if friction else ''}, {cycles} cycles"
             print(f"  {what}: mean {found['mean']:.1f} iterations")
-            check(f"{what}: most iterations", found["most"], 150 if friction else 50)
-            check(f"{what}: cycles above 50 iterations", found["above_50"], 1 if friction else 0)
+            check(f"{what}: most iterations", found["most"], 50)
             check("cycles that missed the tolerance", found["missed"], 0)
 
 

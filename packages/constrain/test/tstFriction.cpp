@@ -2,6 +2,7 @@
 #include "TinyScene.hpp"
 
 #include <Harmos_ConstraintSums.hpp>
+#include <Harmos_OnHost.hpp>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +53,29 @@ TEST(Friction, anImpulseStaysAtTheBoundThatItsGradientPressesItOn)
   EXPECT_EQ(wider.follow(before, 0.5, -1.0), 0.5);
   EXPECT_EQ(narrower.follow(before, 1.5, 1.0), 1.0);
   EXPECT_EQ(narrower.follow(before, -2.0, -1.0), -1.0);
+}
+
+// Whatever the solver: the blocks close by c D p, which is c of what p changes where there is one row alone.
+TEST(Friction, rowsThatRub_giveWayByAMillionth)
+{
+  for (MultiplierMethod const solver : {MultiplierMethod::ProjectedNewton, MultiplierMethod::ConjugateGradients})
+    for (double const friction : {0.0, 0.5})
+    {
+      TinyScene scene(rectilinearMesh(uniform(2, 2), uniform(1, 1)), {boxBody(0, 0, 0, 1, 1), boxBody(1, 1, 0, 2, 1)},
+                      2, open_box);
+      scene.setInteraction(0, 1, friction > 0.0 ? rubbing(friction) : PairInteraction{});
+      scene.options.solver = solver;
+      scene.options.tolerance = 1e-12;
+      scene.setVelocity([](int material, Vector2 const &) { return Vector2{material == 0 ? V : 0.0, 0.0}; });
+      scene.constrain();
+      BodyTable const none = buildBodyTable({}, 2);
+      ContactRows const rows = findContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
+                                               scene.conditions, none, scene.bonds, scene.options, *scene.exchange);
+      ASSERT_EQ(rows.count, 1);
+      auto const row = Harmos::onHost(rows.row);
+      double const left = dot(row(0).normal, relativeVelocity(row(0), scene.half, none));
+      EXPECT_NEAR(left, friction > 0.0 ? -rubbing_compliance * V : 0.0, 1e-3 * rubbing_compliance * V);
+    }
 }
 
 // Slow shear: the nodes of the interface take one common tangential velocity, with less than the bound.
