@@ -107,13 +107,14 @@ struct CutGradientFunctor
     }
   }
 
-  /// How far a solid's part of a full cell has the gradient of what it fills.
-  KOKKOS_INLINE_FUNCTION double ownShare(int pair, Material const &material, double part) const
+  /// How far a solid's part of a cell has the gradient of what it fills, beside the fullness of the cell.
+  KOKKOS_INLINE_FUNCTION double ownShare(int pair, Material const &material, double part, double full) const
   {
     double const strain =
         Math::max(Math::fabs(material.density0 * record(pair, SpecificVolume) - 1.0), record(pair, PlasticStrain));
     double const intact = Math::min(1.0, Math::max(0.0, (worn_strain - strain) / (worn_strain - intact_strain)));
-    return Math::max(intact, Math::min(1.0, part / least_whole_part));
+    double const closed = Math::max(0.0, 1.0 - (1.0 - full) * most_void_of_full_cell / most_void_beside_tip);
+    return Math::max(intact * closed, Math::min(1.0, part / least_whole_part));
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
@@ -128,7 +129,7 @@ struct CutGradientFunctor
       Material const &material = materials(pairs.material(pairs.offset(cell) + k));
       double const part = area(regions.polygon(first + k)) / mesh.cell_area(cell);
       double const share =
-          actsInFullCells(where, material) ? full * ownShare(pairs.offset(cell) + k, material, part) : 1.0;
+          actsInFullCells(where, material) ? full * ownShare(pairs.offset(cell) + k, material, part, full) : 1.0;
       if (!actsOnFilledRegion(where, material))
         continue;
       store(first + k, cell, q, full, share);

@@ -45,13 +45,16 @@ struct CutGradients
   View<double *[12]> gradient; // by row, 3 I + CutGradientColumn; rows follow the pairs of a cell [1/length]
 };
 
-/// Part of a full cell below which the gradient of a worn solid goes back to the cell's mean, in proportion: the nodes
-/// of a tip are held by hardly anything, and would stretch it without bound.
+/// Part of a cell below which the gradient of a solid that is worn, or beside void, goes back to the cell's mean, in
+/// proportion: the nodes of a tip are held by hardly anything, and would stretch it without bound.
 constexpr double least_whole_part = 0.02;
 
 /// Strain (of volume, or equivalent plastic) up to which a tip is intact and keeps its own gradient whatever its size,
 /// and from which it is worn; between them in proportion.
 constexpr double intact_strain = 0.05, worn_strain = 0.15;
+
+/// Void, of the cell, beside which an intact tip is as a worn one; in proportion below.
+constexpr double most_void_beside_tip = 1e-3;
 
 /// Gradients of the filled regions of materials whose stress acts over them (actsOnFilledRegion), less those of their
 /// cells; the rows of the others are not written.
@@ -69,8 +72,9 @@ constexpr double intact_strain = 0.05, worn_strain = 0.15;
 /// N_I over the region. Sum over I: zero, and the hoop's the area over the ring's volume.
 ///
 /// In full cells alone (actsInFullCells) what is stored is the fullness w of the cell times that: the gradient is
-/// (1 - w) times the cell's mean and w times the region's, continuous where void opens. A worn region (worn_strain)
-/// below least_whole_part of its cell has less of it, in proportion.
+/// (1 - w) times the cell's mean and w times the region's, continuous where void opens. A region below
+/// least_whole_part of its cell that is worn (worn_strain), or beside void (most_void_beside_tip), has less of it, in
+/// proportion.
 ///
 /// \param shortest_bent_edge Of the cell size; that of bendOf.
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.

@@ -188,6 +188,28 @@ TEST(CutGradients, ofWornTipsGoBackToTheMean)
   }
 }
 
+TEST(CutGradients, ofTipsBesideVoidGoBackToTheMean)
+{
+  // The tip above, half of least_whole_part; void above y = top: none, 2e-4 and 2e-3 of the cell.
+  Region const tip = polygon({{2.4, 1.0}, {2.4, 1.06}, {2.36, 1.0}});
+  Material solid;
+  solid.strength = StrengthKind::Elastic;
+  solid.density0 = 2700.0;
+  struct
+  {
+    double open, share; // share: of the tip's own gradient, with the cell's fullness
+  } const cases[] = {{0.0, 1.0}, {2e-4, 0.98 * 0.8}, {2e-3, 0.8 * 0.5}};
+  for (auto const &c : cases)
+  {
+    double const top = 1.3 - 0.3 * c.open;
+    Region const rest = polygon({{2.0, 1.0}, {2.36, 1.0}, {2.4, 1.06}, {2.4, top}, {2.0, top}});
+    auto const all = gradientsOf({rest, tip}, solid, CutCellStress::FilledRegions);
+    auto const g = gradientsOf({rest, tip}, solid, CutCellStress::FullCells);
+    double const bends = std::fabs(all(1, CutGradientX));
+    EXPECT_NEAR(g(1, CutGradientX), c.share * all(1, CutGradientX), 1e-6 * bends) << c.open;
+  }
+}
+
 TEST(CutGradients, ofALoneSolidAreNothingBeyondTheMeanInFullCells)
 {
   Material solid;
