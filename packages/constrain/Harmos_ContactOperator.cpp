@@ -71,8 +71,7 @@ void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> cons
       "Harmos::constrain::product", s.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
-          result(row, k) = rowVelocity(s, change, body_change, row, k) +
-                           s.row(row).compliance * s.diagonal(row, k) * impulse(row, k);
+          result(row, k) = rowVelocity(s, change, body_change, row, k) + s.row(row).compliance[k] * impulse(row, k);
       });
 }
 

@@ -7,7 +7,7 @@
 namespace Harmos
 {
 
-/// The operator A = G M^-1 P G^T + c D of a contact system (c: compliance of its rows), applied without a matrix, with
+/// The operator A = G M^-1 P G^T + C of a contact system (C: compliances of its rows), applied without a matrix, with
 /// the exchange of multipliers.
 class ContactOperator
 {

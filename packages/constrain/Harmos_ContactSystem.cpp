@@ -153,7 +153,7 @@ KOKKOS_INLINE_FUNCTION double approach(ContactRow const &row, double relative, M
 
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.
 void fillRows(ContactRows const &rows, Motion const &before, Motion const &predicted, View<int *> const &free_number,
-              double dt, double compliance, ContactSystem &system)
+              double dt, ContactSystem &system)
 {
   ContactSystem const s = system;
   View<ContactRow *> const row = rows.row;
@@ -164,15 +164,13 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         out.tied = r.tied;
         out.friction = r.friction;
         out.normal = r.normal;
-        out.diagonal[0] = out.diagonal[1] = 0.0;
-        bool deforms = false;
+        out.diagonal[0] = out.diagonal[1] = out.compliance[0] = out.compliance[1] = 0.0;
         for (int side = 0; side < 2; ++side)
         {
           int const body = side == 0 ? r.body_a : r.body_b;
           for (int k = 0; k < 4; ++k)
           {
             int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
-            deforms = deforms || dof >= 0;
             out.weight[4 * side + k] = dof < 0 ? 0.0 : side == 0 ? -r.weight_a[k] : r.weight_b[k];
           }
           out.free_body[side] = body >= 0 ? free_number(body) : -1;
@@ -180,7 +178,6 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
           if (body >= 0)
             out.arm[side] = (side == 0 ? r.point : r.point + r.gap * r.normal) - predicted.bodies.body(body).centre;
         }
-        out.compliance = deforms && !r.tied && r.friction > 0.0 ? compliance : 0.0;
         Vector2 const relative = relativeVelocity(r, predicted.velocity, predicted.bodies);
         double const along = dot(r.normal, relative);
         out.predicted[0] = r.tied ? along : approach(r, along, before, dt);
@@ -207,10 +204,11 @@ KOKKOS_INLINE_FUNCTION double reachOf(ContactSystem const &s, int dof, Vector2 c
 /// Row sums of |G M^-1 P G^T| over the deformable dofs: they bound its spectrum in the metric of the diagonal
 /// (Gershgorin). Where node conditions leave nothing free to move, the sum without them: the impulse stays bounded. A
 /// row between rigid bodies has no deformable dofs: its own diagonal entry serves.
-KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
+/// \param if_alike Out: the sum if both sides moved as little as the heavier one; where one of them moves, its own.
+KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, double &if_alike)
 {
   Vector2 const d = s.direction(row, k);
-  double sum = 0.0, unconditioned = 0.0;
+  double sum = 0.0, unconditioned = 0.0, of_side[2] = {0.0, 0.0};
   for (int c = 0; c < 8; ++c)
   {
     int const dof = s.dof(row, c);
@@ -220,8 +218,11 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k)
     double const part = Math::fabs(s.weight(row, c)) * s.inverse_mass(dof), at_free_dof = reachOf(s, dof, d);
     double const at_dof = condition.count == 0 ? at_free_dof : reachOf(s, dof, condition.project(d));
     sum += part * at_dof;
+    of_side[c / 4] += part * at_dof;
     unconditioned += part * at_free_dof;
   }
+  double const most = Math::max(of_side[0], of_side[1]), least = Math::min(of_side[0], of_side[1]);
+  if_alike = least > 0.0 ? 2.0 * least : most;
   if (unconditioned > 0.0)
     return sum > 1e-12 * unconditioned ? sum : unconditioned;
   for (int side = 0; side < 2; ++side)
@@ -249,13 +250,17 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   numberDofs(rows, dof_nodes.num_dof_nodes, system, work);
   gatherDofs(dof_nodes, conditions, dof_mass, system, work);
   View<int *> const free_number = numberFreeBodies(bodies, system, work);
-  fillRows(rows, before, predicted, free_number, dt, compliance, system);
+  fillRows(rows, before, predicted, free_number, dt, system);
   ContactSystem const s = system;
   launchFor(
       "Harmos::constrain::rowSums", rows.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
-          s.row(row).diagonal[k] = rowSum(s, row, k);
+        {
+          double if_alike;
+          s.row(row).diagonal[k] = rowSum(s, row, k, if_alike);
+          s.row(row).compliance[k] = s.tied(row) || s.friction(row) == 0.0 ? 0.0 : compliance * if_alike;
+        }
       });
   system.num_multipliers = rows.num_multipliers;
   return system;

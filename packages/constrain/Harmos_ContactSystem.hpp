@@ -47,20 +47,20 @@ struct SystemRow
   bool tied;
   double friction; // coefficient
   Vector2 normal;
-  int dof[8];          // compact dof of side a's corners (0..3) and b's (4..7), -1: none
-  double weight[8];    // signed shape functions, - for a, + for b
-  double predicted[2]; // b
-  double diagonal[2];  // row sums of |G M^-1 P G^T|, deformable part; own rows
-  double compliance;   // of the diagonal: how far the row gives way to its impulse
-  int free_body[2];    // free body of side a, b: its compact number, -1: none
-  Vector2 arm[2];      // point - centre of the body of side a, of side b
+  int dof[8];           // compact dof of side a's corners (0..3) and b's (4..7), -1: none
+  double weight[8];     // signed shape functions, - for a, + for b
+  double predicted[2];  // b
+  double diagonal[2];   // row sums of |G M^-1 P G^T|, deformable part; own rows
+  double compliance[2]; // velocity by which the row gives way, per impulse; own rows
+  int free_body[2];     // free body of side a, b: its compact number, -1: none
+  Vector2 arm[2];       // point - centre of the body of side a, of side b
 };
 
 /// The complementarity problem of the contact rows, without a matrix.
 ///
 /// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
-/// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*) + c D p, b = G v* + max(gap, 0)/dt
-/// (tied: no gap), c the compliance of the row and D its diagonal. Dof nodes that rows touch are numbered compactly;
+/// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*) + C p, b = G v* + max(gap, 0)/dt
+/// (tied: no gap), C the compliances of the rows. Dof nodes that rows touch are numbered compactly;
 /// rows_of gathers in key order.
 struct ContactSystem
 {
@@ -136,14 +136,17 @@ KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<doub
   return relative;
 }
 
-/// Compliance of rows that rub. Impulses along n and across it that alternate from row to row move next to nothing
-/// (eigenvalues of A down to 1e-8 of the row sums), and friction's bounds follow them: steps along such patterns are
-/// large and settle nowhere. With this on the diagonal a row that carries p moves by a millionth of what p alone would
-/// give it.
+/// Compliance C of rows that rub, over the row sum that they would have if both sides were as the heavier one. Impulses
+/// along n and across it that alternate from row to row move next to nothing (eigenvalues of A down to 1e-8 of the row
+/// sums), and friction's bounds follow them: steps along such patterns are large and settle nowhere. With this a row
+/// moves by a millionth of what its p alone would change. Of a film's own row sums that would be the film's thickness
+/// in some hundred cycles (doc/decisions/0010).
 constexpr double rubbing_compliance = 1e-6;
 
+/// The rows' weights, masses, predictions and row sums for the multiplier loop (ContactSystem has the equations).
 /// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
-/// \param compliance Of rows that rub and have deformable dofs; others have none.
+/// \param dof_mass [kg, per metre of depth or per radian]; \param dt [s]
+/// \param compliance Of rows that rub and have deformable dofs, as rubbing_compliance; others have none.
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,

@@ -107,9 +107,9 @@ LowerTriangle scalarMatrix(BlockPattern const &m, DualRows const &rows, std::vec
         for (int l = 0; l < static_cast<int>(i == j ? k + 1 : rows.row[j].directions); ++l)
         {
           int const a = first[i] + k, b = first[j] + l;
-          double const compliance = a == b ? rows.row[i].compliance : 0.0;
+          double const compliance = a == b ? rows.row[i].compliance[k] : 0.0;
           entry.push_back(
-              {std::max(a, b), std::min(a, b), rows.block[e].value[k][l] / (root[a] * root[b]) + compliance});
+              {std::max(a, b), std::min(a, b), (rows.block[e].value[k][l] + compliance) / (root[a] * root[b])});
         }
     }
   return byRows(entry, root.size());

@@ -25,8 +25,8 @@ constexpr bool isSmallBody(int unknowns)
 
 /// \brief The contact problem of all ranks' rows as one sparse matrix on the host, the same bits on every rank.
 ///
-/// Unknowns x = sqrt(D) p, one for each direction of a row, D the row sums of ContactSystem and c its compliances; x^T
-/// A x / 2 + b . x over low <= x <= high, A = D^-1/2 G M^-1 P G^T D^-1/2 + c. The rows follow each other along the
+/// Unknowns x = sqrt(D) p, one for each direction of a row, D the row sums of ContactSystem and C its compliances; x^T
+/// A x / 2 + b . x over low <= x <= high, A = D^-1/2 (G M^-1 P G^T + C) D^-1/2. The rows follow each other along the
 /// interfaces (reverse Cuthill-McKee), so that the deformable part of A is a narrow band; free bodies are applied
 /// beside it, and factored with it where they are small (ShiftedSystem).
 struct DualProblem

@@ -55,13 +55,13 @@ KOKKOS_INLINE_FUNCTION DualRow dualRow(ContactSystem const &s, int row)
   d.directions = s.directions(row);
   d.tied = s.tied(row);
   d.friction = s.friction(row);
-  d.compliance = s.row(row).compliance;
   for (int side = 0; side < 2; ++side)
     d.body[side] = s.freeBody(row, side);
   for (int k = 0; k < s.directions(row); ++k)
   {
     d.predicted[k] = s.predicted(row, k);
     d.diagonal[k] = s.diagonal(row, k);
+    d.compliance[k] = s.row(row).compliance[k];
     for (int side = 0; side < 2; ++side)
       for (int c = 0; s.freeBody(row, side) >= 0 && c < 3; ++c)
         d.jacobian[k][3 * side + c] = s.bodyJacobian(row, side, k, c);

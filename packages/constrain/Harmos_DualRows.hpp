@@ -13,8 +13,8 @@ namespace Harmos
 /// A row without its couplings.
 struct DualRow
 {
-  double directions, tied, friction, compliance;
-  double predicted[2], diagonal[2];
+  double directions, tied, friction;
+  double predicted[2], diagonal[2], compliance[2];
   double body[2];        // compact numbers
   double jacobian[2][6]; // by direction: of side a's body, of side b's
 };

@@ -18,8 +18,8 @@ struct MultiplierSolution
   std::vector<ContactForce> force = {}; // options.warm_start: of all ranks' rows, by key
 };
 
-/// \brief Solve r = b + G M^-1 P G^T p >= 0, p >= 0, p r = 0 (tied rows: r = 0, p of any sign; across n with friction:
-/// |p_t| <= mu p, r_t = 0 inside of the bounds and against p_t at them).
+/// \brief Solve r = b + A p >= 0, A = G M^-1 P G^T + C, p >= 0, p r = 0 (tied rows: r = 0, p of any sign; across n with
+/// friction: |p_t| <= mu p, r_t = 0 inside of the bounds and against p_t at them).
 ///
 /// MultiplierMethod::ProjectedNewton: on the assembled problem of all ranks (projectedNewton); judged here.
 ///
@@ -29,12 +29,12 @@ struct MultiplierSolution
 /// MultiplierMethod::RowSums is the plain iteration p <- bounds(p - r / D), for comparison.
 ///
 /// MultiplierMethod::ConjugateGradients: modified proportioning with reduced gradient projections (MPRGP), for p.A p/2
-/// + b.p over p >= 0 in the scaled unknowns sqrt(D) p, D the row sums of the deformable part of A = G M^-1 P G^T. The
-/// scaled operator's norm is at most one, plus the trace of the free rigid bodies' part, so that projected gradient
-/// steps of 1.9 over that bound are safe. Conjugate gradients in the free set; a step that meets a bound ends in a
-/// projected gradient step; bound rows are let go when their gradient outweighs the free one. The few large eigenvalues
-/// that a rigid body adds cost conjugate gradients a few iterations, where gradient methods crawl. Convergence is
-/// judged on the residual computed afresh.
+/// + b.p over p >= 0 in the scaled unknowns sqrt(D) p, D the row sums of the deformable part of A. The scaled
+/// operator's norm is at most one, plus a millionth where rows give way (rubbing_compliance), plus the trace of the
+/// free rigid bodies' part, so that projected gradient steps of 1.9 over that bound are safe. Conjugate gradients in
+/// the free set; a step that meets a bound ends in a projected gradient step; bound rows are let go when their gradient
+/// outweighs the free one. The few large eigenvalues that a rigid body adds cost conjugate gradients a few iterations,
+/// where gradient methods crawl. Convergence is judged on the residual computed afresh.
 ///
 /// Residual: the largest |r| of impulses between their bounds, and of what leads away from a bound, relative to
 /// max(largest |G v*|, 1e-6 speed_scale). Every comparison is between numbers that do not depend on ranks.

@@ -21,7 +21,7 @@ public:
       : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), system_(problem),
         x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace())), least_shift_(n_, 1e-7)
   {
-    constexpr double none = 1.0e300, rigid = 10.0 * rubbing_compliance, deformable_shift = 1e-13;
+    constexpr double none = 1.0e300, rigid = 1e-6, deformable_shift = 1e-13;
     LowerTriangle const &a = problem.matrix;
     for (int i = 0; i < n_; ++i)
       for (int e = a.offset[i]; e < a.offset[i + 1]; ++e)

@@ -107,12 +107,12 @@ struct CutGradientFunctor
     }
   }
 
-  /// How far a solid's part of a cell has the gradient of what it fills, beside the fullness of the cell.
+  /// How far a solid that fills this part of its cell has the gradient of what it fills, once fullness is counted.
   KOKKOS_INLINE_FUNCTION double ownShare(int pair, Material const &material, double part, double full) const
   {
     double const strain =
         Math::max(Math::fabs(material.density0 * record(pair, SpecificVolume) - 1.0), record(pair, PlasticStrain));
-    double const intact = Math::min(1.0, Math::max(0.0, (worn_strain - strain) / (worn_strain - intact_strain)));
+    double const intact = Math::clamp((worn_strain - strain) / (worn_strain - intact_strain), 0.0, 1.0);
     double const closed = Math::max(0.0, 1.0 - (1.0 - full) * most_void_of_full_cell / most_void_beside_tip);
     return Math::max(intact * closed, Math::min(1.0, part / least_whole_part));
   }
@@ -127,11 +127,11 @@ struct CutGradientFunctor
     for (int k = 0; k < count; ++k)
     {
       Material const &material = materials(pairs.material(pairs.offset(cell) + k));
+      if (!actsOnFilledRegion(where, material))
+        continue;
       double const part = area(regions.polygon(first + k)) / mesh.cell_area(cell);
       double const share =
           actsInFullCells(where, material) ? full * ownShare(pairs.offset(cell) + k, material, part, full) : 1.0;
-      if (!actsOnFilledRegion(where, material))
-        continue;
       store(first + k, cell, q, full, share);
       any = any || share > 0.0;
     }

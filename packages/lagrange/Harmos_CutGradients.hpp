@@ -76,6 +76,7 @@ constexpr double most_void_beside_tip = 1e-3;
 /// least_whole_part of its cell that is worn (worn_strain), or beside void (most_void_beside_tip), has less of it, in
 /// proportion.
 ///
+/// \param record By pair (PairField): specific volume and plastic strain say what is worn.
 /// \param shortest_bent_edge Of the cell size; that of bendOf.
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.
 ///

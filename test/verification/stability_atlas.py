@@ -326,7 +326,7 @@ Two blocks under one pressure meet and slide on each other at 2e-3 of the speed 
 """
 AFTER_ITERATIONS = """
 The goal is met, without friction and with it (a normal and a tangential multiplier a row), and 10,000 rows take no more than 1,000. Rows that rub give way by a millionth ([decision 0010](decisions/0010-projected-newton.md#rows-that-rub-give-way)); without that four of 200 cycles of 10,000 of them missed the tolerance. Mortar multipliers, which share them
-and do without, take three without friction and at most 35 with it, up to 40,000 of them. Until the path inside the bounds was there, midpoints took up to 108 (1,000 columns) and 178 (10,000 columns) over 200 cycles, with friction 1,000.
+and do without, take three without friction and at most 30 with it, up to 40,000 of them. Until the path inside the bounds was there, midpoints took up to 108 (1,000 columns) and 178 (10,000 columns) over 200 cycles, with friction 1,000.
 """
 
 if __name__ == "__main__":

@@ -35,11 +35,13 @@ struct CutCell
     std::iota(number.begin(), number.end(), 0);
     pairs.material = deviceCopy("material", number);
     View<double *[num_pair_fields]> const record("record", parts.size());
+    auto const r = Kokkos::create_mirror_view(record);
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
-      record(i, SpecificVolume) = 1.0 / (compression * material.density0);
-      record(i, PlasticStrain) = plastic_strain;
+      r(i, SpecificVolume) = 1.0 / (compression * material.density0);
+      r(i, PlasticStrain) = plastic_strain;
     }
+    Kokkos::deep_copy(record, r);
     computeCutGradients(mesh, pairs, record, regions,
                         deviceCopy("materials", std::vector<Material>(parts.size(), material)), where,
                         LagrangeOptions().shortest_bent_edge, cut);
@@ -95,6 +97,20 @@ Region polygon(std::vector<Vector2> const &vertices)
   return r;
 }
 
+Material elasticSolid()
+{
+  Material solid;
+  solid.strength = StrengthKind::Elastic;
+  solid.density0 = 2700.0;
+  return solid;
+}
+
+/// A corner of the cell of 0.01 of its area, half of least_whole_part.
+Region tipOfACell()
+{
+  return polygon({{2.4, 1.0}, {2.4, 1.06}, {2.36, 1.0}});
+}
+
 auto gradientsOf(std::vector<Region> const &parts, Material const &material, CutCellStress where,
                  double compression = 1.0, double plastic_strain = 0.0)
 {
@@ -142,9 +158,7 @@ TEST(CutGradients, ofSolidsFollowTheFullnessOfTheirCell)
   // Lower and upper part of the cell [2, 2.4] x [1, 1.3] with void above y = top: full at 1.3, half full at 0.5% of
   // void.
   Region const lower = polygon({{2.0, 1.0}, {2.4, 1.0}, {2.4, 1.1}, {2.0, 1.1}});
-  Material solid;
-  solid.strength = StrengthKind::Elastic;
-  solid.density0 = 2700.0;
+  Material const solid = elasticSolid();
   for (double const open : {0.0, 0.005, 0.02})
   {
     double const top = 1.3 - 0.3 * open;
@@ -165,12 +179,8 @@ TEST(CutGradients, ofSolidsFollowTheFullnessOfTheirCell)
 
 TEST(CutGradients, ofWornTipsGoBackToTheMean)
 {
-  // A corner of area 0.01 of the cell's, half of what keeps its own gradient in any case.
-  Region const tip = polygon({{2.4, 1.0}, {2.4, 1.06}, {2.36, 1.0}}),
-               rest = polygon({{2.0, 1.0}, {2.36, 1.0}, {2.4, 1.06}, {2.4, 1.3}, {2.0, 1.3}});
-  Material solid;
-  solid.strength = StrengthKind::Elastic;
-  solid.density0 = 2700.0;
+  Region const tip = tipOfACell(), rest = polygon({{2.0, 1.0}, {2.36, 1.0}, {2.4, 1.06}, {2.4, 1.3}, {2.0, 1.3}});
+  Material const solid = elasticSolid();
   auto const all = gradientsOf({rest, tip}, solid, CutCellStress::FilledRegions);
   struct
   {
@@ -190,11 +200,9 @@ TEST(CutGradients, ofWornTipsGoBackToTheMean)
 
 TEST(CutGradients, ofTipsBesideVoidGoBackToTheMean)
 {
-  // The tip above, half of least_whole_part; void above y = top: none, 2e-4 and 2e-3 of the cell.
-  Region const tip = polygon({{2.4, 1.0}, {2.4, 1.06}, {2.36, 1.0}});
-  Material solid;
-  solid.strength = StrengthKind::Elastic;
-  solid.density0 = 2700.0;
+  // Void above y = top: none, 2e-4 and 2e-3 of the cell.
+  Region const tip = tipOfACell();
+  Material const solid = elasticSolid();
   struct
   {
     double open, share; // share: of the tip's own gradient, with the cell's fullness
@@ -212,9 +220,7 @@ TEST(CutGradients, ofTipsBesideVoidGoBackToTheMean)
 
 TEST(CutGradients, ofALoneSolidAreNothingBeyondTheMeanInFullCells)
 {
-  Material solid;
-  solid.strength = StrengthKind::Elastic;
-  solid.density0 = 2700.0;
+  Material const solid = elasticSolid();
   auto const g =
       gradientsOf({polygon({{2.0, 1.0}, {2.4, 1.0}, {2.4, 1.3}, {2.01, 1.3}})}, solid, CutCellStress::FullCells);
   for (int k = 0; k < 12; ++k)
