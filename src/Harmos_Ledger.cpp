@@ -51,6 +51,12 @@ void Ledger::noteOverlap(double volume, double largest, Vector2 const &place)
   largest_overlap_y = place[1];
 }
 
+void Ledger::noteRemappedOverlap(double volume, double largest)
+{
+  remapped_overlap += volume;
+  largest_remapped_overlap = std::max(largest_remapped_overlap, largest);
+}
+
 std::vector<double> Ledger::values() const
 {
   std::vector<double> v(sizeof(Ledger) / sizeof(double));

@@ -53,6 +53,8 @@ struct Ledger
   double polygon_overlap = 0.0;       // of moved regions of different materials, where it is measured [m^2]
   double largest_overlap = 0.0;       // in any cell and cycle since the last row of the history, over the cell's volume
   double largest_overlap_x = 0.0, largest_overlap_y = 0.0; // of that cell [m]
+  double remapped_overlap = 0.0;                           // what parting leaves of polygon_overlap [m^2]
+  double largest_remapped_overlap = 0.0;                   // as largest_overlap
 
   /// Keep the largest errors. \param momentum_error [N s/m] \param energy_error [J/m]
   /// \param energy Kinetic + internal now. \param speed_momentum sum m |v| now.
@@ -68,6 +70,9 @@ struct Ledger
 
   /// What moved regions overlap in one cycle: in all, and the largest part of a cell with its place.
   void noteOverlap(double volume, double largest, Vector2 const &place);
+
+  /// The same of the regions that are remapped.
+  void noteRemappedOverlap(double volume, double largest);
 
   /// All values in the order of declaration, for checkpoints.
   std::vector<double> values() const;

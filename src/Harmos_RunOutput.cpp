@@ -186,10 +186,13 @@ void RunOutput::writeHistory(Scene const &scene, CycleState const &state, CycleR
   row.polygon_overlap_largest = ledger.largest_overlap;
   row.polygon_overlap_place[0] = ledger.largest_overlap_x;
   row.polygon_overlap_place[1] = ledger.largest_overlap_y;
+  row.remapped_overlap = ledger.remapped_overlap;
+  row.remapped_overlap_largest = ledger.largest_remapped_overlap;
   history_.write(row);
   // A restart takes an end's row away, and goes on to the next.
   if (history_due_.regular())
-    ledger.largest_overlap = ledger.largest_overlap_x = ledger.largest_overlap_y = 0.0;
+    ledger.largest_overlap = ledger.largest_overlap_x = ledger.largest_overlap_y = ledger.largest_remapped_overlap =
+        0.0;
 }
 
 void RunOutput::writeContacts(Scene const &scene, CycleState const &state, CycleReport const &report)

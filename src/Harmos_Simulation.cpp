@@ -64,6 +64,7 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
   l.repeats += report.repeats;
   l.restored_volume += report.restored_volume;
   l.noteOverlap(remap.moved_overlap.volume, remap.moved_overlap.largest, remap.moved_overlap.place);
+  l.noteRemappedOverlap(remap.remapped_overlap.volume, remap.remapped_overlap.largest);
 }
 
 /// What to say of a condensed material without a failure law that is stretched to less than half of its density: its

@@ -49,8 +49,12 @@ public:
     {
       if (reached())
         break;
-      if (round == patient_rounds_)
+      if (round == patient_rounds_ || drags())
+      {
         followInterior(inside_first);
+        if (reached())
+          break;
+      }
       if (round >= undamped_rounds_)
         dampReach(before);
       before = bounds_;
@@ -66,6 +70,9 @@ public:
 private:
   /// Across n, by friction.
   bool rubs(int i) const { return problem_.normal_of[i] >= 0; }
+
+  /// Whether unknowns that are dropped one by one take long, and no path was followed yet.
+  bool drags() const { return !followed_ && iterations_ >= patient_iterations_; }
 
   /// The gradient at x, which most steps have already.
   void updateGradient()
@@ -154,6 +161,7 @@ private:
   /// \param damped See InteriorPoint::solve.
   void followInterior(bool damped = false)
   {
+    followed_ = true;
     Vector const before = x_;
     double const least = violation();
     InteriorPoint interior(problem_, system_);
@@ -307,7 +315,7 @@ private:
   bool descend()
   {
     bool moved = false;
-    while (iterations_ < max_iterations_)
+    while (iterations_ < max_iterations_ && !drags())
     {
       int const before = iterations_;
       newtonStep();
@@ -401,11 +409,13 @@ private:
   std::vector<char> free_;
   Vector slides_;
   static constexpr int undamped_rounds_ = 4, patient_rounds_ = 30;
+  static constexpr int patient_iterations_ = 25;
   static constexpr int patient_ = 6, hasty_ = 2; // sets that need not halve the residual
   double const safe_step_;
   Vector least_shift_;
   double start_ = 0.0, shift_ = 0.0;
   int iterations_ = 0;
+  bool followed_ = false;
   bool many_change_ = false; // unknowns between free and held, when sets were last exchanged
 };
 

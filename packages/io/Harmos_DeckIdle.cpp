@@ -23,6 +23,8 @@ std::vector<std::string> idlePaths(Deck const &deck)
     paths = {"numerics/reconstruction", "numerics/remap"};
   else
     paths = {"numerics/subzonal_pressure"};
+  if (deck.kinematics == Kinematics::Single || deck.prescribed.kind != FieldKind::None)
+    paths.push_back("numerics/remap/part_overlaps"); // all materials move alike
   if (deck.prescribed.kind != FieldKind::None)
     paths.insert(paths.end(),
                  {"numerics/linear_viscosity", "numerics/quadratic_viscosity", "numerics/hourglass_viscosity",

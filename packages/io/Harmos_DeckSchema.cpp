@@ -274,6 +274,9 @@ void addNumerics(ParameterList &list)
       "fragments below this volume fraction merge with neighbours of their material; 0: never");
   add(m, "close_void_below", remap.close_void_below, number(between(0.0, 0.01)),
       "spurious void below this part of a cell is closed");
+  add(m, "part_overlaps", remap.part_overlaps, rulesOf(KeyType::Bool),
+      "what moved regions have in common of bodies that have flowed (plastic strain above 0.1) and pass each other is "
+      "divided between them before the remap");
   add(m, "return_kinetic_defect", remap.return_kinetic_defect, rulesOf(KeyType::Bool),
       "kinetic energy lost by the remap becomes internal energy");
 }

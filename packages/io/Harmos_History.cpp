@@ -21,7 +21,8 @@ std::string historyHeader(std::vector<std::string> const &material_names, bool p
     header += ',' + name + ".failed_mass";
   header += ",returned_heat";
   if (polygon_overlap)
-    header += ",polygon_overlap,polygon_overlap_largest,polygon_overlap_x,polygon_overlap_y";
+    header += ",polygon_overlap,polygon_overlap_largest,polygon_overlap_x,polygon_overlap_y,remapped_overlap,"
+              "remapped_overlap_largest";
   return header;
 }
 
@@ -75,7 +76,8 @@ void History::write(HistoryRow const &row)
   appendValue(line, row.returned_heat);
   if (polygon_overlap_)
     for (double value :
-         {row.polygon_overlap, row.polygon_overlap_largest, row.polygon_overlap_place[0], row.polygon_overlap_place[1]})
+         {row.polygon_overlap, row.polygon_overlap_largest, row.polygon_overlap_place[0], row.polygon_overlap_place[1],
+          row.remapped_overlap, row.remapped_overlap_largest})
       appendValue(line, value);
   file_->append(line + '\n');
 }

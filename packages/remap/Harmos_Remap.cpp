@@ -176,11 +176,27 @@ double otherKineticEnergy(Input const &in, Classes const &classes)
   return sum;
 }
 
-/// Stage 2: the interface cells.
+/// Move the regions of the interface cells, and part them. Collective where overlaps are measured.
+void moveRegions(Input const &in, Classes const &classes, StageState const &stage, Kept &kept, RemapReport &report,
+                 Exchange const &exchange)
+{
+  bool const any = classes.num_interface > 0, measure = in.options.measure_overlap;
+  if (any)
+    moveDonors(in, classes, stage, kept.donors);
+  if (measure)
+    report.moved_overlap = report.remapped_overlap = measureOverlap(in, classes, kept.donors, exchange);
+  if (!in.options.part_overlaps)
+    return;
+  if (any)
+    partDonors(in, classes, kept.donors, kept.part);
+  if (measure)
+    report.remapped_overlap = measureOverlap(in, classes, kept.donors, exchange);
+}
+
+/// Stage 2: the interface cells, whose regions have moved.
 void intersectInterfaceCells(Input const &in, Classes const &classes, StageState const &stage, Kept &kept)
 {
   grow(kept.bookings, "bookings", classes.num_interface);
-  moveDonors(in, classes, stage, kept.donors);
   intersect(in, classes, stage, kept.donors, kept.overlays, kept.bookings);
   if (accumulate(in, classes, kept.donors, kept.overlays, kept.acceptors, kept.bookings) > 0)
     mergeFragments(in, classes, kept.acceptors, kept.bookings);
@@ -298,6 +314,7 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
   StageState const stage = sweepPureCells(in, classes, kept, sums);
   sums.kinetic_before += otherKineticEnergy(in, classes);
 
+  moveRegions(in, classes, stage, kept, report, exchange);
   Acceptors const &acceptors = kept.acceptors;
   double out_kinetic = 0.0;
   if (classes.num_interface > 0)
@@ -305,8 +322,6 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
     intersectInterfaceCells(in, classes, stage, kept);
     addBookings(classes, kept.bookings, report, out_kinetic);
   }
-  if (options.measure_overlap)
-    report.moved_overlap = measureOverlap(in, classes, kept.donors, exchange);
   Rebuilt rebuilt = rebuild(in, kinematics, classes, stage, acceptors);
   rebuilt.result.state.velocity = stage.velocity;
   rebuilt.result.state.tracks_damage = state.tracks_damage;

@@ -41,7 +41,8 @@ struct RemapOptions
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
                                       // where damage is tracked, which is carried in its place
   double shortest_bent_edge = 0.1;    // of the cell size; edges inside cells below it stay straight (bendOf)
-  bool measure_overlap = false;       // RemapReport::moved_overlap; changes nothing else
+  bool part_overlaps = true;          // what moved regions of bodies that pass each other have in common is divided
+  bool measure_overlap = false;       // RemapReport::moved_overlap, remapped_overlap; changes nothing else
 };
 
 /// What the moved regions of different materials have in common, polygon by polygon and whatever void is left beside
@@ -54,7 +55,7 @@ struct MovedOverlap
   Vector2 place = {0.0, 0.0}; // centroid of that cell; the lowest where several have as much [length]
 };
 
-/// Sums over owned cells of one remap, for the history; with `moved_overlap`, which is of all ranks.
+/// Sums over owned cells of one remap, for the history; with the overlaps, which are of all ranks.
 struct RemapReport
 {
   double overlap_volume = 0.0;                     // overlap of moved regions that was scaled away (>= 0) [length^2]
@@ -68,7 +69,9 @@ struct RemapReport
                           0.0}; // by node conditions on the bodies when the remapped velocities are projected [N s/m]
   double kinetic_loss = 0.0;    // before - after - outflow, less what became heat
   double returned_heat = 0.0;   // kinetic energy that became internal energy (return_kinetic_defect)
-  MovedOverlap moved_overlap;   // of the last remap; zero unless RemapOptions::measure_overlap
+  MovedOverlap moved_overlap;   // as velocities move the regions, in the last remap; zero unless
+                                // RemapOptions::measure_overlap
+  MovedOverlap remapped_overlap; // the same after RemapOptions::part_overlaps: of the regions that are remapped
   long long failures = 0;       // owned donors whose overlays do not add up to 1e-10 of their volume
   int first_failed_cell = -1;   // with the material of its first such donor; -1: the cell gets too many materials
   int first_failed_material = -1;

@@ -53,7 +53,8 @@ TEST(History, header_namesTheColumnsThatScriptsRelyOn)
             "cu.x_min,cu.x_max,cu.y_min,cu.y_max,cu.plastic_strain_max,"
             "cu.failed_mass,returned_heat");
   EXPECT_EQ(historyHeader({"cu"}, true), historyHeader({"cu"}) + ",polygon_overlap,polygon_overlap_largest,"
-                                                                 "polygon_overlap_x,polygon_overlap_y");
+                                                                 "polygon_overlap_x,polygon_overlap_y,remapped_overlap,"
+                                                                 "remapped_overlap_largest");
 }
 
 TEST(History, polygonOverlap_standsLastWhereItIsAskedFor)
@@ -63,6 +64,8 @@ TEST(History, polygonOverlap_standsLastWhereItIsAskedFor)
   row.polygon_overlap_largest = 0.25;
   row.polygon_overlap_place[0] = -2.0;
   row.polygon_overlap_place[1] = 3.0;
+  row.remapped_overlap = 0.125;
+  row.remapped_overlap_largest = 0.0625;
   for (bool const asked : {false, true})
   {
     {
@@ -72,7 +75,7 @@ TEST(History, polygonOverlap_standsLastWhereItIsAskedFor)
     auto const lines = linesOf("overlap.csv");
     ASSERT_EQ(lines.size(), 2u);
     EXPECT_EQ(std::count(lines[0].begin(), lines[0].end(), ','), std::count(lines[1].begin(), lines[1].end(), ','));
-    EXPECT_EQ(lines[1].rfind(",0.5,0.25,-2,3") != std::string::npos, asked) << lines[1];
+    EXPECT_EQ(lines[1].rfind(",0.5,0.25,-2,3,0.125,0.0625") != std::string::npos, asked) << lines[1];
   }
   EXPECT_THROW(History("overlap.csv", {"a", "b"}, true, CsvStart::after(0)), std::runtime_error);
 }

@@ -16,7 +16,7 @@ namespace RemapDetail
 /// acceptor, in ascending order of cells. Acceptors do not overlap: what two regions share is counted once, wherever it
 /// lies in the mesh. Collective; the same bits on any number of ranks.
 ///
-/// \param donors After moveDonors; the polygons of those that it leaves out are filled in.
+/// \param donors After moveDonors, or partDonors; the polygons of those that it leaves out are filled in.
 MovedOverlap measureOverlap(Input const &in, Classes const &classes, Donors const &donors, Exchange const &exchange);
 
 } // namespace RemapDetail

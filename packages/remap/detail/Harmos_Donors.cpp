@@ -84,29 +84,6 @@ KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Move
   }
 }
 
-/// Whether two edges of a closed polygon cross.
-KOKKOS_INLINE_FUNCTION bool isFolded(Region const &region)
-{
-  bool concave = false;
-  for (int i = 0; i < region.size && !concave; ++i)
-  {
-    Vector2 const b = region[region.next(i)];
-    concave = cross(b - region[i], region[region.next(region.next(i))] - b) < 0.0;
-  }
-  if (!concave)
-    return false;
-  for (int i = 0; i < region.size; ++i)
-    for (int j = i + 2; j < region.size; ++j)
-    {
-      if (i == 0 && j == region.size - 1)
-        continue;
-      Vector2 const a = region[i], b = region[region.next(i)], c = region[j], d = region[region.next(j)];
-      if (cross(d - c, a - c) * cross(d - c, b - c) < 0.0 && cross(b - a, c - a) * cross(b - a, d - a) < 0.0)
-        return true;
-    }
-  return false;
-}
-
 /// A shift without what would carry a region of this cell through a wall, of which its vertices keep their side: no
 /// corner of the cell leaves a wall's line, but the centroid's displacement is not that of a vertex there.
 KOKKOS_INLINE_FUNCTION Vector2 withinWalls(Input const &in, int cell, Quadrilateral const &q, Region const &region,
@@ -252,7 +229,7 @@ struct MoveFunctor
     {
       int const pair = in.pairs.offset(cell) + donor - donors.offset(index);
       int const material = in.pairs.material(pair);
-      donors.head(donor) = {pair, material, RigidDonor, 0ull};
+      donors.head(donor) = {pair, material, RigidDonor, 1.0, 0ull};
       if (in.isRigid(material))
         continue;
       donors.head(donor).kind = move(donor, cell, pair);
@@ -283,6 +260,17 @@ void moveDonors(Input const &in, Classes const &classes, StageState const &stage
   grow(donors.value, "donorValue", donors.num);
   grow(donors.half, "donorHalf", donors.num);
   Kokkos::parallel_for("Harmos::remap::moveDonors", RangePolicy(0, cells), MoveFunctor{in, classes, stage, donors});
+}
+
+void placeQuietRegions(Input const &in, Classes const &classes, Donors const &donors)
+{
+  Kokkos::parallel_for(
+      "Harmos::remap::placeQuietRegions", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int index) {
+        int const cell = classes.interface_cell(index);
+        for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
+          if (donors.head(donor).kind == QuietDonor)
+            stillRegion(in, cell, donors.head(donor).pair, in.startQuadrilateral(cell), donors.polygon(donor));
+      });
 }
 
 void moveOtherRegions(Input const &in, Classes const &classes, Donors const &donors)

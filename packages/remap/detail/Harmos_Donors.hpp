@@ -37,6 +37,7 @@ struct DonorHead
   int pair;
   int material;
   int kind;                    // DonorKind
+  double measure;              // factor of the polygon's moments that gives the donor's (partDonors)
   unsigned long long overlaps; // bit s: an overlay with the cell of slot s (NeighbourLinks)
 };
 
@@ -73,9 +74,42 @@ KOKKOS_INLINE_FUNCTION void cornerVelocities(CellMaterialPairs const &pairs, Vie
   }
 }
 
+/// Whether c and d lie on different sides of the line from a to b, by more than `least` [length^2]: twice an area.
+KOKKOS_INLINE_FUNCTION bool apartOn(Vector2 const &a, Vector2 const &b, Vector2 const &c, Vector2 const &d, double least)
+{
+  double const of_c = cross(b - a, c - a), of_d = cross(b - a, d - a);
+  return (of_c > least && of_d < -least) || (of_c < -least && of_d > least);
+}
+
+/// Whether two edges of a closed polygon cross. \param least Crossings of less do not count (apartOn).
+KOKKOS_INLINE_FUNCTION bool isFolded(Region const &region, double least = 0.0)
+{
+  bool concave = false;
+  for (int i = 0; i < region.size && !concave; ++i)
+  {
+    Vector2 const b = region[region.next(i)];
+    concave = cross(b - region[i], region[region.next(region.next(i))] - b) < 0.0;
+  }
+  if (!concave)
+    return false;
+  for (int i = 0; i < region.size; ++i)
+    for (int j = i + 2; j < region.size; ++j)
+    {
+      if (i == 0 && j == region.size - 1)
+        continue;
+      Vector2 const a = region[i], b = region[region.next(i)], c = region[j], d = region[region.next(j)];
+      if (apartOn(c, d, a, b, least) && apartOn(a, b, c, d, least))
+        return true;
+    }
+  return false;
+}
+
 /// Moved polygons: vertices of the filled region displaced bilinearly by the pair's own dof nodes; swept nodes stay.
 /// The donors' values.
 void moveDonors(Input const &in, Classes const &classes, StageState const &stage, Donors &donors);
+
+/// The polygons of quiet donors, after moveDonors: their filled regions, where they are.
+void placeQuietRegions(Input const &in, Classes const &classes, Donors const &donors);
 
 /// The polygons that moveDonors leaves out, after it: quiet donors where they are, rigid bodies' filled regions moved
 /// with their dof nodes, degenerate donors without vertices.

@@ -3,6 +3,7 @@
 #define HARMOS_KEPT_HPP
 
 #include <detail/Harmos_Acceptors.hpp>
+#include <detail/Harmos_PartDonors.hpp>
 
 namespace Harmos
 {
@@ -30,6 +31,7 @@ struct Kept
 
   // Work arrays of stage 2, as large as they were ever needed.
   Donors donors;
+  PartWork part;
   Overlays overlays;
   Acceptors acceptors;
   Bookings bookings;

@@ -32,6 +32,15 @@ struct HighMoments
 using QuarticMoments = HighMoments<4>;
 using QuinticMoments = HighMoments<5>;
 
+/// Moments of what has `measure` times the area.
+template <class M>
+KOKKOS_INLINE_FUNCTION M measuredBy(double measure, M m)
+{
+  for (double &value : m.value)
+    value *= measure;
+  return m;
+}
+
 /// Moments weighted by the radius, about an origin at `radius`, from plane ones about it: the weight is linear.
 KOKKOS_INLINE_FUNCTION QuarticMoments ringMoments(QuinticMoments const &plane, double radius)
 {

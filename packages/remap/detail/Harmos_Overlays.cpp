@@ -78,6 +78,7 @@ struct DonorAtWork
 {
   int number, cell;
   double volume, mass;
+  double measure; // DonorHead
   Vector2 centroid;
   Polynomial polynomial;
   unsigned long long overlaps;
@@ -180,8 +181,10 @@ struct IntersectFunctor : Finder
   {
     bool whole = false;
     Window const w = windowAbout(in.mesh, acceptor, d.centroid);
-    OverlayMoments const m = Finder::measured(
-        momentsInside<typename Finder::PlaneMoments, max_region_vertices>(v.size, v.x, v.y, w, whole), d.centroid[0]);
+    OverlayMoments const m = measuredBy(
+        d.measure,
+        Finder::measured(momentsInside<typename Finder::PlaneMoments, max_region_vertices>(v.size, v.x, v.y, w, whole),
+                         d.centroid[0]));
     addIfAny(list, slot, acceptor, whole ? list.whole : m);
   }
 
@@ -203,7 +206,7 @@ struct IntersectFunctor : Finder
       }
       OverlayMoments one;
       for (int i = 0; i < Moments<2>::count; ++i)
-        one.value[i] = value[i][lane];
+        one.value[i] = d.measure * value[i][lane];
       addIfAny(list, pack.slot[lane], pack.acceptor[lane], one);
     }
     pack.count = 0;
@@ -327,6 +330,7 @@ struct IntersectFunctor : Finder
     d.cell = cell;
     d.volume = donors.shape(number, 0);
     d.mass = stage.record(head.pair, Mass);
+    d.measure = head.measure;
     d.centroid = {donors.shape(number, 1), donors.shape(number, 2)};
     if (head.kind == MovingDonor)
     {

@@ -67,9 +67,9 @@ struct QuadraticFinder : PolynomialFinder
     return p;
   }
 
-  KOKKOS_INLINE_FUNCTION OverlayMoments wholeMoments(int, MovedVertices const &v) const
+  KOKKOS_INLINE_FUNCTION OverlayMoments wholeMoments(int donor, MovedVertices const &v) const
   {
-    return momentsOfVertices<OverlayMoments>(v.size, v.x, v.y);
+    return measuredBy(donors.head(donor).measure, momentsOfVertices<OverlayMoments>(v.size, v.x, v.y));
   }
 
   /// Density and deviator by volume, the others by mass. The fit takes in that velocities belong to cells
@@ -416,7 +416,8 @@ struct RingQuadraticFinder : QuadraticFinder
   }
   KOKKOS_INLINE_FUNCTION OverlayMoments wholeMoments(int donor, MovedVertices const &v) const
   {
-    return ringMoments(momentsOfVertices<QuinticMoments>(v.size, v.x, v.y), donors.shape(donor, 1));
+    return measuredBy(donors.head(donor).measure,
+                      ringMoments(momentsOfVertices<QuinticMoments>(v.size, v.x, v.y), donors.shape(donor, 1)));
   }
 };
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 using namespace Harmos;
 using namespace Harmos::Test;
 
@@ -40,6 +42,14 @@ Scene openScene(std::vector<Layer> const &layers, std::vector<Vector2> const &ve
 }
 
 constexpr double h = 0.125;
+
+/// The scene with matter that has flowed.
+Scene flowed(Scene scene, double strain = 0.2)
+{
+  for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+    scene.state.record(pair, PlasticStrain) = strain;
+  return scene;
+}
 
 } // namespace
 
@@ -191,20 +201,100 @@ TEST(Overlap, ofTheParts_addsUpToTheWhole)
       scene.distribute(owner, 7);
     scene.paint({disc(0, {0.45, 0.5}, 0.27), halfPlane(2, {0.5, 0.5}, 0.3), rest(1)}, wave, wave);
     scene.move(slip);
+    scene = flowed(scene);
     scene.remapped();
-    return scene.report.moved_overlap;
+    return std::array<MovedOverlap, 2>{scene.report.moved_overlap, scene.report.remapped_overlap};
   };
-  MovedOverlap const whole = measured({});
+  auto const whole_of = measured({});
   std::vector<int> left(24 * 20), right(24 * 20);
   for (int cell = 0; cell < 24 * 20; ++cell)
   {
     left[cell] = cell % 24 < 11 + (cell / 24) % 3 ? 0 : 1;
     right[cell] = 1 - left[cell];
   }
-  MovedOverlap const a = measured(left), b = measured(right);
-  EXPECT_NEAR(a.volume + b.volume, whole.volume, 1e-16);
-  EXPECT_EQ(std::max(a.largest, b.largest), whole.largest);
-  MovedOverlap const &larger = a.largest > b.largest ? a : b;
-  EXPECT_EQ(larger.place[0], whole.place[0]);
-  EXPECT_EQ(larger.place[1], whole.place[1]);
+  auto const left_of = measured(left), right_of = measured(right);
+  for (int i = 0; i < 2; ++i)
+  {
+    MovedOverlap const &a = left_of[i], &b = right_of[i], &whole = whole_of[i];
+    EXPECT_NEAR(a.volume + b.volume, whole.volume, 1e-16);
+    EXPECT_EQ(std::max(a.largest, b.largest), whole.largest);
+    MovedOverlap const &larger = a.largest > b.largest ? a : b;
+    EXPECT_EQ(larger.place[0], whole.place[0]);
+    EXPECT_EQ(larger.place[1], whole.place[1]);
+  }
+  EXPECT_LT(whole_of[1].volume, whole_of[0].volume);
+}
+
+TEST(PartedRegions, squaresThatPassEachOther_keepTheirMass_andShareNothing)
+{
+  // Both have gone 0.1 h into each other, the left one 0.4 h up the face.
+  double const d = 0.1 * h, shared = 2.0 * d * (3.0 * h - 4.0 * d);
+  Scene scene = flowed(openScene({cells(0, 1 * h, 2 * h, 4 * h, 5 * h), cells(1, 4 * h, 2 * h, 7 * h, 5 * h)},
+                                 {{d, 4.0 * d}, {-d, 0.0}}));
+  for (bool const parts : {false, true})
+  {
+    scene.options.part_overlaps = parts;
+    RemapResult const result = scene.remapped();
+    EXPECT_NEAR(scene.report.moved_overlap.volume, shared, 1e-16);
+    EXPECT_NEAR(scene.report.remapped_overlap.volume, parts ? 0.0 : shared, 1e-16);
+    for (int m = 0; m < 2; ++m)
+      EXPECT_NEAR(totals(scene.mesh, result.pairs, result.state.record, result.state.velocity, m).mass,
+                  totals(scene.mesh, scene.pairs, scene.state.record, scene.half, m).mass, 1e-15);
+  }
+}
+
+TEST(PartedRegions, ofWhatCreeps_orHasNotFlowed_orComesStraightOn_areNone)
+{
+  auto const parted = [](Vector2 const &left, Vector2 const &right, double strain)
+  {
+    Scene scene =
+        flowed(openScene({cells(0, 1 * h, 2 * h, 4 * h, 5 * h), cells(1, 4 * h, 2 * h, 7 * h, 5 * h)}, {left, right}),
+               strain);
+    scene.remapped();
+    EXPECT_GT(scene.report.moved_overlap.volume, 0.0);
+    return scene.report.remapped_overlap.volume < scene.report.moved_overlap.volume;
+  };
+  double const d = 0.01 * h;
+  EXPECT_TRUE(parted({d, 0.4 * h}, {-d, 0.0}, 0.2));
+  EXPECT_FALSE(parted({d, 0.4 * h}, {-d, 0.0}, 0.09)); // has not flowed
+  EXPECT_FALSE(parted({d, 0.0}, {-d, 0.0}, 0.2));      // straight on
+  EXPECT_TRUE(parted({0.0005 * h, 0.0019 * h}, {-0.0005 * h, 0.0}, 0.2));
+  EXPECT_FALSE(parted({0.0005 * h, 0.0015 * h}, {-0.0005 * h, 0.0}, 0.2)); // apart by less than 0.002 cells
+}
+
+TEST(PartedRegions, ofADiscThatTurnsInABlock_conserveAll)
+{
+  // The facets of its rim run into those of the block: as an impulse could not, parting takes nearly all of that away.
+  for (int order : {1, 2, 3})
+    for (bool const about_axis : {false, true})
+    {
+      Scene scene(24, 20, 0.0, twoLaws());
+      if (about_axis)
+        scene.aboutAxis();
+      scene.options.order = order;
+      scene.options.measure_overlap = true;
+      scene.paint({disc(0, {0.5, 0.5}, 0.27), rest(1)}, wave, wave);
+      scene.move(
+          [](int material, Vector2 const &x) {
+            return material == 0 ? 0.08 * perpendicular(x - Vector2{0.5, 0.5}) : Vector2{0.0, 0.0};
+          });
+      scene = flowed(scene);
+      RemapResult const result = scene.remapped();
+      EXPECT_GT(scene.report.moved_overlap.volume, 1e-4);
+      EXPECT_LT(scene.report.remapped_overlap.volume, 0.1 * scene.report.moved_overlap.volume);
+      EXPECT_EQ(scene.report.failures, 0);
+      for (int m = 0; m < 2; ++m)
+      {
+        Totals const b = totals(scene.mesh, scene.pairs, scene.state.record, scene.half, m);
+        Totals const a = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity, m);
+        EXPECT_NEAR(a.mass, b.mass, 1e-14 * b.mass);
+        EXPECT_NEAR(a.internal, b.internal, 1e-14 * b.internal);
+        EXPECT_NEAR(a.thermodynamic_volume, b.thermodynamic_volume, 1e-14 * b.thermodynamic_volume);
+      }
+      Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
+      Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
+      double const scale = std::sqrt(2.0 * before.mass * before.kinetic);
+      for (int d = 0; d < 2; ++d)
+        EXPECT_NEAR(after.momentum[d] - scene.report.wall_impulse[d], before.momentum[d], 1e-14 * scale);
+    }
 }
