@@ -43,12 +43,15 @@ struct Crossing
 };
 
 /// Places on an outline of n edges: how far along it `to` is ahead of `from`.
-KOKKOS_INLINE_FUNCTION double ahead(double from, double to, int n) { return to >= from ? to - from : to - from + n; }
+KOKKOS_INLINE_FUNCTION double ahead(double from, double to, int n)
+{
+  return to >= from ? to - from : to - from + n;
+}
 
 /// Whether a point is on the left of a line through two points of the other polygon. A point on the line is where it
-/// were if b had been shifted by (d, d^2), d next to nothing: so the answers agree with each other, as those of `zero is
-/// right` do not (Edelsbrunner & Muecke, ACM Trans. Graph. 9 (1990) 66).
-/// \param sign 1 where the point is a's, -1 where it is b's
+/// were if b had been shifted by (d, d^2), d next to nothing: so the answers agree with each other, as those of `zero
+/// is right` do not (Edelsbrunner & Muecke, ACM Trans. Graph. 9 (1990) 66). \param sign 1 where the point is a's, -1
+/// where it is b's
 KOKKOS_INLINE_FUNCTION bool isLeft(Vector2 const &from, Vector2 const &to, Vector2 const &point, double sign)
 {
   Vector2 const along = to - from;
@@ -147,8 +150,8 @@ KOKKOS_INLINE_FUNCTION double placeOn(Polygon<Capacity> const &p, int edge, Vect
 {
   Vector2 const from = vertexAt(p, edge), along = vertexAt(p, edge + 1) - from;
   double const whole = dot(along, along);
-  double const place = (edge + 2 * p.size) % p.size +
-                       (whole > 0.0 ? Math::clamp(dot(point - from, along) / whole, 0.0, 1.0) : 0.0);
+  double const place =
+      (edge + 2 * p.size) % p.size + (whole > 0.0 ? Math::clamp(dot(point - from, along) / whole, 0.0, 1.0) : 0.0);
   return place < p.size ? place : 0.0;
 }
 
@@ -159,10 +162,8 @@ KOKKOS_INLINE_FUNCTION void settle(Polygon<Capacity> const &a, Polygon<Capacity>
 {
   Around const on_a = verticesAround(a, c.on_a, c.point, tolerance);
   Around const on_b = verticesAround(b, c.on_b, c.point, tolerance);
-  Vector2 const ahead =
-      commonStretch(vertexAt(a, on_a.next) - c.point, vertexAt(b, on_b.next) - c.point, tolerance);
-  Vector2 const behind =
-      commonStretch(vertexAt(a, on_a.last) - c.point, vertexAt(b, on_b.last) - c.point, tolerance);
+  Vector2 const ahead = commonStretch(vertexAt(a, on_a.next) - c.point, vertexAt(b, on_b.next) - c.point, tolerance);
+  Vector2 const behind = commonStretch(vertexAt(a, on_a.last) - c.point, vertexAt(b, on_b.last) - c.point, tolerance);
   double const forward = dot(ahead, ahead), backward = dot(behind, behind);
   if (!(forward > 0.0) && !(backward > 0.0))
     return;
@@ -171,8 +172,8 @@ KOKKOS_INLINE_FUNCTION void settle(Polygon<Capacity> const &a, Polygon<Capacity>
   c.on_b = placeOn(b, forward > backward ? on_b.next - 1 : on_b.last, c.point);
 }
 
-/// The crossings of two outlines, each where it settles: of several along one stretch those that enter and leave cancel.
-/// \return Their number.
+/// The crossings of two outlines, each where it settles: of several along one stretch those that enter and leave
+/// cancel. \return Their number.
 template <int Capacity>
 KOKKOS_INLINE_FUNCTION int settledCrossings(Polygon<Capacity> const &a, Polygon<Capacity> const &b, double tolerance,
                                             Crossing *crossing)
@@ -180,10 +181,8 @@ KOKKOS_INLINE_FUNCTION int settledCrossings(Polygon<Capacity> const &a, Polygon<
   int size = findCrossings(a, b, crossing);
   for (int i = 0; i < size; ++i)
     settle(a, b, tolerance, crossing[i]);
-  auto const cancel = [&](int i, int j)
-  {
-    return crossing[i].enters != crossing[j].enters &&
-           norm(crossing[j].point - crossing[i].point) <= 4.0 * tolerance;
+  auto const cancel = [&](int i, int j) {
+    return crossing[i].enters != crossing[j].enters && norm(crossing[j].point - crossing[i].point) <= 4.0 * tolerance;
   };
   for (int i = 0; i + 1 < size;)
   {
@@ -212,8 +211,8 @@ KOKKOS_INLINE_FUNCTION int settledCrossings(Polygon<Capacity> const &a, Polygon<
 
 /// The lenses of two simple polygons, counter-clockwise: where a's outline enters b and the next crossing along it is
 /// also the last one along b's. What is enclosed otherwise (a polygon within the other, outlines that cross in another
-/// order) is none. Where outlines run along each other they cross halfway. Places and areas follow from the arguments in
-/// their order: (b, a) gives them to round-off.
+/// order) is none. Where outlines run along each other they cross halfway. Places and areas follow from the arguments
+/// in their order: (b, a) gives them to round-off.
 ///
 /// \param tolerance Outlines that are not farther from each other run along each other. [length]
 template <int Capacity>

@@ -202,7 +202,8 @@ void addNumerics(ParameterList &list)
   add(list, "subzonal_pressure", lagrange.subzonal_pressure, number(between(0.0, 1.0)),
       "kinematics lagrangian: stiffness of cells against becoming wedges, part of the bulk modulus "
       "(Caramana-Shashkov)");
-  add(list, "cut_cell_stress", std::string("full cells"), choice({"cell mean", "fluids", "full cells", "filled regions"}),
+  add(list, "cut_cell_stress", std::string("full cells"),
+      choice({"cell mean", "fluids", "full cells", "filled regions"}),
       "xfem: where the stress of a material in a mixed cell acts. cell mean: along the cell's mean gradients; filled "
       "regions: over the part that it fills, in balance with the tractions; fluids: so for materials without strength; "
       "full cells: for the others too as far as their cell holds no void, none at 1% of it");

@@ -75,9 +75,8 @@ void History::write(HistoryRow const &row)
     appendValue(line, m.failed_mass);
   appendValue(line, row.returned_heat);
   if (polygon_overlap_)
-    for (double value :
-         {row.polygon_overlap, row.polygon_overlap_largest, row.polygon_overlap_place[0], row.polygon_overlap_place[1],
-          row.remapped_overlap, row.remapped_overlap_largest})
+    for (double value : {row.polygon_overlap, row.polygon_overlap_largest, row.polygon_overlap_place[0],
+                         row.polygon_overlap_place[1], row.remapped_overlap, row.remapped_overlap_largest})
       appendValue(line, value);
   file_->append(line + '\n');
 }

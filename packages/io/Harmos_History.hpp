@@ -54,8 +54,8 @@ struct HistoryRow
   double polygon_overlap = 0.0;          // of moved regions [m^2]; this and the next two where they are asked for
   double polygon_overlap_largest = 0.0;  // in any cell and cycle since the last row, over the cell's volume
   double polygon_overlap_place[2] = {0.0, 0.0}; // of that cell [m]
-  double remapped_overlap = 0.0;         // the same of the regions that are remapped: what parting leaves [m^2]
-  double remapped_overlap_largest = 0.0; // as polygon_overlap_largest
+  double remapped_overlap = 0.0;                // the same of the regions that are remapped: what parting leaves [m^2]
+  double remapped_overlap_largest = 0.0;        // as polygon_overlap_largest
 };
 
 /// history.csv: a header line, then a row per call, whole lines only, doubles with 17 digits.

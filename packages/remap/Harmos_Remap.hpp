@@ -66,14 +66,14 @@ struct RemapReport
   double outflow_mass = 0.0, outflow_energy = 0.0; // kinetic + internal, net of inflow
   Vector2 outflow_momentum = {0.0, 0.0};
   Vector2 wall_impulse = {0.0,
-                          0.0}; // by node conditions on the bodies when the remapped velocities are projected [N s/m]
-  double kinetic_loss = 0.0;    // before - after - outflow, less what became heat
-  double returned_heat = 0.0;   // kinetic energy that became internal energy (return_kinetic_defect)
-  MovedOverlap moved_overlap;   // as velocities move the regions, in the last remap; zero unless
-                                // RemapOptions::measure_overlap
+                          0.0};  // by node conditions on the bodies when the remapped velocities are projected [N s/m]
+  double kinetic_loss = 0.0;     // before - after - outflow, less what became heat
+  double returned_heat = 0.0;    // kinetic energy that became internal energy (return_kinetic_defect)
+  MovedOverlap moved_overlap;    // as velocities move the regions, in the last remap; zero unless
+                                 // RemapOptions::measure_overlap
   MovedOverlap remapped_overlap; // the same after RemapOptions::part_overlaps: of the regions that are remapped
-  long long failures = 0;       // owned donors whose overlays do not add up to 1e-10 of their volume
-  int first_failed_cell = -1;   // with the material of its first such donor; -1: the cell gets too many materials
+  long long failures = 0;        // owned donors whose overlays do not add up to 1e-10 of their volume
+  int first_failed_cell = -1;    // with the material of its first such donor; -1: the cell gets too many materials
   int first_failed_material = -1;
 };
 

@@ -4,7 +4,8 @@ import tempfile
 
 from harness import ROOT, check, clean, harmos, run
 from contact_iterations import iterations_of_strip
-from stability_atlas import METHODS, deviation
+from sliding_block import SQUEEZE
+from stability_atlas import BLOCKS, METHODS, block, deviation
 
 DECK = ROOT / "test/verification/decks/sliver.yaml"
 
@@ -123,6 +124,17 @@ def test_mortar_multipliers_halve_the_deviation_of_midpoints():
     # What is left is not theirs: the forces of a pressure in a cut cell are those of the cell's mean gradient (tstVitalVertices has the exact ones).
     for angle, bound in ((0.0, 1e-6), (20.0, 0.15), (35.0, 0.25)):
         check(f"mortar, {angle:.0f} degrees: deviation of the tractions", deviation("mortar", angle), bound)
+
+
+def test_iterations_stay_below_fifty_in_a_small_squeezed_block():
+    # Dropped one by one, some thirty midpoints took up to 54, twice as many Gauss points up to 148.
+    for method in ("multipliers", "two Gauss points"):
+        for angle, offset in BLOCKS[:2]:
+            found = block(method, angle, offset, SQUEEZE)
+            what = f"{method}, {angle} degrees, offset {offset}"
+            print(f"  {what}: mean {found['iterations']:.1f} iterations")
+            check(f"{what}: most iterations", found["most iterations"], 50)
+            check(f"{what}: cycles that missed the tolerance", found["unconverged"], 0)
 
 
 def test_iterations_stay_below_fifty_where_many_places_settle():

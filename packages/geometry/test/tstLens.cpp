@@ -113,10 +113,11 @@ TEST(Lens, sidesThatRunAlongEachOther_crossHalfway)
 
 TEST(Lens, bodiesThatDoNotCross_haveNone)
 {
-  EXPECT_EQ(lensesOf(region(box(0, 0, 1, 1)), region(box(1, 0, 2, 1)), along).size, 0);  // side to side
-  EXPECT_EQ(lensesOf(region(box(0, 0, 1, 1)), region(box(1, 1, 2, 2)), along).size, 0);  // corner to corner
-  EXPECT_EQ(lensesOf(region(box(0, 0, 3, 3)), region(box(1, 1, 2, 2)), along).size, 0);  // one in the other
-  EXPECT_EQ(lensesOf(region(box(0, 0, 3, 1)), region(box(1, -1, 2, 2)), along).size, 0); // a cross: four corners, no lens
+  EXPECT_EQ(lensesOf(region(box(0, 0, 1, 1)), region(box(1, 0, 2, 1)), along).size, 0); // side to side
+  EXPECT_EQ(lensesOf(region(box(0, 0, 1, 1)), region(box(1, 1, 2, 2)), along).size, 0); // corner to corner
+  EXPECT_EQ(lensesOf(region(box(0, 0, 3, 3)), region(box(1, 1, 2, 2)), along).size, 0); // one in the other
+  EXPECT_EQ(lensesOf(region(box(0, 0, 3, 1)), region(box(1, -1, 2, 2)), along).size,
+            0); // a cross: four corners, no lens
 }
 
 TEST(Lens, twoTeethInABar_areTwoLenses)

@@ -173,12 +173,11 @@ TEST(Deck, Defaults_areThoseOfTheOptionStructs)
 
 TEST(Deck, Overrides_replaceValuesAndMakeMaps)
 {
-  Deck const deck =
-      example({"kinematics=single", "interactions={default: sliding}", "bodies/slider/angle=30", "run/end_time=2",
-               "numerics/remap/order=1", "numerics/remap/limiter=van leer", "numerics/remap/swept_faces=false",
-               "numerics/remap/part_overlaps=false",
-               "numerics/reconstruction/removal_order=[ring, void, slider, gas, lower]",
-               "boundaries/left={type: inflow, body: slider, velocity: [2, 0]}"});
+  Deck const deck = example({"kinematics=single", "interactions={default: sliding}", "bodies/slider/angle=30",
+                             "run/end_time=2", "numerics/remap/order=1", "numerics/remap/limiter=van leer",
+                             "numerics/remap/swept_faces=false", "numerics/remap/part_overlaps=false",
+                             "numerics/reconstruction/removal_order=[ring, void, slider, gas, lower]",
+                             "boundaries/left={type: inflow, body: slider, velocity: [2, 0]}"});
   EXPECT_EQ(deck.kinematics, Kinematics::Single);
   EXPECT_DOUBLE_EQ(deck.bodies[2].shape.angle, Math::pi / 6.0);
   EXPECT_EQ(deck.run.end_time, 2.0);

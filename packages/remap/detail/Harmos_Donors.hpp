@@ -75,7 +75,8 @@ KOKKOS_INLINE_FUNCTION void cornerVelocities(CellMaterialPairs const &pairs, Vie
 }
 
 /// Whether c and d lie on different sides of the line from a to b, by more than `least` [length^2]: twice an area.
-KOKKOS_INLINE_FUNCTION bool apartOn(Vector2 const &a, Vector2 const &b, Vector2 const &c, Vector2 const &d, double least)
+KOKKOS_INLINE_FUNCTION bool apartOn(Vector2 const &a, Vector2 const &b, Vector2 const &c, Vector2 const &d,
+                                    double least)
 {
   double const of_c = cross(b - a, c - a), of_d = cross(b - a, d - a);
   return (of_c > least && of_d < -least) || (of_c < -least && of_d > least);

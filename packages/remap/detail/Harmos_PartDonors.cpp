@@ -26,8 +26,8 @@ constexpr double least_lens = 1e-5;
 /// Outlines this near run along each other, as those of cells that move along a line of the mesh do. [cell sizes]
 constexpr double along = 1e-5;
 
-/// Of what passes each other, over the line through a lens: tangent of the greatest angle. Steeper is an approach that no
-/// row holds; it is for the next cycle's rows to see.
+/// Of what passes each other, over the line through a lens: tangent of the greatest angle. Steeper is an approach that
+/// no row holds; it is for the next cycle's rows to see.
 constexpr double steepest = 2.0;
 
 /// Splinters of less are no thicker than what `along` passes over. [of the cell]
@@ -116,8 +116,8 @@ struct PartFunctor
     return Math::fabs(cross(chord, apart)) < steepest * Math::fabs(dot(chord, apart));
   }
 
-  /// Arcs of a donor's outline that lie in another of the cell `near`. Whichever of the two asks, the lenses are those of
-  /// the lower one with the other: both are cut along the same lines.
+  /// Arcs of a donor's outline that lie in another of the cell `near`. Whichever of the two asks, the lenses are those
+  /// of the lower one with the other: both are cut along the same lines.
   KOKKOS_INLINE_FUNCTION void addArcs(int cell, int donor, int near, int other, Candidates &candidates) const
   {
     bool const first = donor < other;
@@ -217,8 +217,7 @@ int findRough(Input const &in, Classes const &classes, Donors const &donors, Vie
         int const cell = classes.interface_cell(index);
         for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
         {
-          bool const flowed =
-              donors.head(donor).kind != RigidDonor && donors.value(donor, PlasticStrain) > least_flow;
+          bool const flowed = donors.head(donor).kind != RigidDonor && donors.value(donor, PlasticStrain) > least_flow;
           rough(donor) = flowed && passes(in, cell) ? 1 : 0;
           sum += rough(donor);
         }

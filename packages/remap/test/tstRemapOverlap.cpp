@@ -247,9 +247,8 @@ TEST(PartedRegions, ofWhatCreeps_orHasNotFlowed_orComesStraightOn_areNone)
 {
   auto const parted = [](Vector2 const &left, Vector2 const &right, double strain)
   {
-    Scene scene =
-        flowed(openScene({cells(0, 1 * h, 2 * h, 4 * h, 5 * h), cells(1, 4 * h, 2 * h, 7 * h, 5 * h)}, {left, right}),
-               strain);
+    Scene scene = flowed(
+        openScene({cells(0, 1 * h, 2 * h, 4 * h, 5 * h), cells(1, 4 * h, 2 * h, 7 * h, 5 * h)}, {left, right}), strain);
     scene.remapped();
     EXPECT_GT(scene.report.moved_overlap.volume, 0.0);
     return scene.report.remapped_overlap.volume < scene.report.moved_overlap.volume;
