@@ -409,7 +409,7 @@ private:
   std::vector<char> free_;
   Vector slides_;
   static constexpr int undamped_rounds_ = 4, patient_rounds_ = 30;
-  static constexpr int patient_iterations_ = 25;
+  static constexpr int patient_iterations_ = 20;
   static constexpr int patient_ = 6, hasty_ = 2; // sets that need not halve the residual
   double const safe_step_;
   Vector least_shift_;
