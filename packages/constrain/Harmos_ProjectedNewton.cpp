@@ -54,6 +54,7 @@ public:
         followInterior(inside_first);
         if (reached())
           break;
+        before = bounds_;
       }
       if (round >= undamped_rounds_)
         dampReach(before);

@@ -167,6 +167,9 @@ KOKKOS_INLINE_FUNCTION void settle(Polygon<Capacity> const &a, Polygon<Capacity>
   double const forward = dot(ahead, ahead), backward = dot(behind, behind);
   if (!(forward > 0.0) && !(backward > 0.0))
     return;
+  if (forward > 0.0 && backward > 0.0 &&
+      Math::fabs(cross(ahead, behind)) > tolerance * Math::sqrt(Math::max(forward, backward)))
+    return; // they share a corner: no straight stretch
   c.point += 0.5 * (ahead + behind);
   c.on_a = placeOn(a, forward > backward ? on_a.next - 1 : on_a.last, c.point);
   c.on_b = placeOn(b, forward > backward ? on_b.next - 1 : on_b.last, c.point);
@@ -212,7 +215,7 @@ KOKKOS_INLINE_FUNCTION int settledCrossings(Polygon<Capacity> const &a, Polygon<
 /// The lenses of two simple polygons, counter-clockwise: where a's outline enters b and the next crossing along it is
 /// also the last one along b's. What is enclosed otherwise (a polygon within the other, outlines that cross in another
 /// order) is none. Where outlines run along each other they cross halfway. Places and areas follow from the arguments
-/// in their order: (b, a) gives them to round-off.
+/// in their order: (b, a) gives them to round-off, or others where vertices lie on edges exactly.
 ///
 /// \param tolerance Outlines that are not farther from each other run along each other. [length]
 template <int Capacity>

@@ -5,6 +5,7 @@
 #include <Harmos_Lens.hpp>
 #include <Harmos_Moments.hpp>
 #include <detail/Harmos_Overlays.hpp>
+#include <detail/Harmos_RegionBounds.hpp>
 
 namespace Harmos
 {
@@ -18,7 +19,7 @@ namespace
 constexpr double least_flow = 0.1;
 
 /// So are those at nodes whose materials move apart by less in the step. [cell sizes]
-constexpr double least_passing = 0.002;
+constexpr double least_passing = 0.005;
 
 /// Lenses of less stay: many a cell has some, and all of them together are next to nothing. [of the cell]
 constexpr double least_lens = 1e-5;
@@ -28,7 +29,7 @@ constexpr double along = 1e-5;
 
 /// Of what passes each other, over the line through a lens: tangent of the greatest angle. Steeper is an approach that
 /// no row holds; it is for the next cycle's rows to see.
-constexpr double steepest = 2.0;
+constexpr double steepest = 4.0;
 
 /// Splinters of less are no thicker than what `along` passes over. [of the cell]
 constexpr double least_fraction = 1e-3;
@@ -45,29 +46,6 @@ struct PartFunctor
   Classes classes;
   Donors donors;
   PartWork work;
-
-  /// Axis-parallel, around a region.
-  struct Box
-  {
-    Vector2 low, high;
-
-    KOKKOS_INLINE_FUNCTION bool meets(Box const &other) const
-    {
-      return low[0] < other.high[0] && other.low[0] < high[0] && low[1] < other.high[1] && other.low[1] < high[1];
-    }
-  };
-
-  KOKKOS_INLINE_FUNCTION static Box boxOf(Region const &region)
-  {
-    Box box{region[0], region[0]};
-    for (int i = 1; i < region.size; ++i)
-      for (int d = 0; d < 2; ++d)
-      {
-        box.low[d] = Math::min(box.low[d], region[i][d]);
-        box.high[d] = Math::max(box.high[d], region[i][d]);
-      }
-    return box;
-  }
 
   KOKKOS_INLINE_FUNCTION bool takesPart(int donor) const
   {
@@ -138,7 +116,7 @@ struct PartFunctor
     if (!takesPart(donor))
       return;
     Region const &region = donors.polygon(donor);
-    Box const box = boxOf(region);
+    Bounds const bounds = boundsOf(region);
     int const material = donors.head(donor).material;
     bool const rough = work.rough(donor) != 0;
     Candidates candidates;
@@ -150,7 +128,8 @@ struct PartFunctor
                              return;
                            for (int other = donors.offset(index); other < donors.offset(index + 1); ++other)
                              if ((rough || work.rough(other) != 0) && takesPart(other) &&
-                                 donors.head(other).material != material && box.meets(boxOf(donors.polygon(other))))
+                                 donors.head(other).material != material &&
+                                 !bounds.with(boundsOf(donors.polygon(other))).empty())
                                addArcs(cell, donor, near, other, candidates);
                          });
     OutlineArcs arcs;
@@ -160,6 +139,7 @@ struct PartFunctor
       return;
     Region &parted = work.polygon(donor);
     if (straightened(region, arcs, parted) && area(parted) > least_kept * area(region) &&
+        volume(parted, in.mesh.geometry) > least_kept * donors.shape(donor, 0) &&
         !isFolded(parted, least_fold * in.mesh.cell_area(cell)))
       work.parted(donor) = 1;
   }
@@ -217,7 +197,9 @@ int findRough(Input const &in, Classes const &classes, Donors const &donors, Vie
         int const cell = classes.interface_cell(index);
         for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
         {
-          bool const flowed = donors.head(donor).kind != RigidDonor && donors.value(donor, PlasticStrain) > least_flow;
+          DonorHead const head = donors.head(donor);
+          // Of before stage 1: after it records are right to one layer of the halo less.
+          bool const flowed = head.kind != RigidDonor && in.state.record(head.pair, PlasticStrain) > least_flow;
           rough(donor) = flowed && passes(in, cell) ? 1 : 0;
           sum += rough(donor);
         }

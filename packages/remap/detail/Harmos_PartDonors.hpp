@@ -21,7 +21,7 @@ struct PartWork
 ///
 /// Velocities follow the smooth interface, the facets of a reconstruction do not: moved along it they run into each
 /// other by length times slip times the sine between the two. Where one of two bodies has an equivalent plastic strain
-/// above 0.1 and materials at a node of its cell are moved apart by more than 0.002 cell sizes, what two moved regions
+/// above 0.1 and materials at a node of its cell are moved apart by more than 0.005 cell sizes, what two moved regions
 /// of deformable bodies have in common between two crossings of their outlines (Lens) is divided along the line through
 /// the crossings, unless they come at each other across it, which is for rows to hold. A region keeps its volume and
 /// its mass: what it lost is made up for by `measure`, the factor of all its moments.

@@ -43,9 +43,10 @@ Scene openScene(std::vector<Layer> const &layers, std::vector<Vector2> const &ve
 
 constexpr double h = 0.125;
 
-/// The scene with matter that has flowed.
+/// The scene with matter that has flowed, to be parted.
 Scene flowed(Scene scene, double strain = 0.2)
 {
+  scene.options.part_overlaps = true;
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
     scene.state.record(pair, PlasticStrain) = strain;
   return scene;
@@ -257,8 +258,8 @@ TEST(PartedRegions, ofWhatCreeps_orHasNotFlowed_orComesStraightOn_areNone)
   EXPECT_TRUE(parted({d, 0.4 * h}, {-d, 0.0}, 0.2));
   EXPECT_FALSE(parted({d, 0.4 * h}, {-d, 0.0}, 0.09)); // has not flowed
   EXPECT_FALSE(parted({d, 0.0}, {-d, 0.0}, 0.2));      // straight on
-  EXPECT_TRUE(parted({0.0005 * h, 0.0019 * h}, {-0.0005 * h, 0.0}, 0.2));
-  EXPECT_FALSE(parted({0.0005 * h, 0.0015 * h}, {-0.0005 * h, 0.0}, 0.2)); // apart by less than 0.002 cells
+  EXPECT_TRUE(parted({0.001 * h, 0.0049 * h}, {-0.001 * h, 0.0}, 0.2));
+  EXPECT_FALSE(parted({0.001 * h, 0.0044 * h}, {-0.001 * h, 0.0}, 0.2)); // apart by less than 0.005 cells
 }
 
 TEST(PartedRegions, ofADiscThatTurnsInABlock_conserveAll)
