@@ -157,8 +157,8 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
   return {cut_inside ? line.normal : -line.normal, 0.0, volume * volume * line.squared_error, line.converged};
 }
 
-/// Whether the region found for a sliver, cut off along n, lies on the other side of a larger component than the
-/// sliver.
+/// Whether the region found for a component, cut off along n, lies on the other side of one that is no sliver than the
+/// component's own centroid.
 KOKKOS_INLINE_FUNCTION bool beyondAnother(CellComponents const &components, SliverBounds const &slivers,
                                           Vector2 const &n, Vector2 const &found, int k)
 {
@@ -172,13 +172,14 @@ KOKKOS_INLINE_FUNCTION bool beyondAnother(CellComponents const &components, Sliv
   return beyond;
 }
 
-/// |first moment of a region - its component's given one|^2. A sliver's centroid is noise along it and tells no more
-/// than on which side of the others it lies: its region counts for nothing, or where it has come to lie beyond a
-/// component that is no sliver, for 0.1 V times the squared distance across, in the measure of the penalties. A sliver
-/// of void counts for nothing at all: its centroid is what the others' errors leave.
+/// |first moment of a region - its component's given one|^2, of a sliver nothing: its centroid is noise along it. And
+/// where a body's region has come to lie beyond a component that is no sliver, 0.1 V times the squared distance across,
+/// in the measure of the penalties. A sliver of void counts for nothing at all: its centroid is what the others' errors
+/// leave.
 ///
 /// First moments rather than centroids: what a straight line cannot follow moves the same first moment out of one
-/// component and into its neighbour, whatever their sizes.
+/// component and into its neighbour, whatever their sizes. But the first moment of a tip of 1e-5 of the cell, at the
+/// wrong end of it, is less than what a bent face misses: that tells nothing of the side that it is on.
 /// \param n Normal of the line that cuts the region off.
 KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, SliverBounds const &slivers,
                                           Region const &region, int k, Vector2 const &n)
@@ -187,15 +188,18 @@ KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, Sliv
   bool const sliver = volume < slivers.of(components, k);
   if (region.empty() || (sliver && components.material[k] == void_material))
     return 0.0;
-  if (sliver)
+  double misplaced = 0.0;
+  if (components.material[k] != void_material)
   {
     Vector2 const found = region[0] + components.momentsOf(region).centroid();
-    Vector2 const &given = components.centroid[k];
-    double const across = dot(n, found - given);
-    return beyondAnother(components, slivers, n, found, k) ? sliver_penalty * volume * across * across : 0.0;
+    double const across = dot(n, found - components.centroid[k]);
+    if (beyondAnother(components, slivers, n, found, k))
+      misplaced = sliver_penalty * volume * across * across;
   }
+  if (sliver)
+    return misplaced;
   Vector2 const first = components.firstMiss(region, k);
-  return dot(first, first);
+  return dot(first, first) + misplaced;
 }
 
 /// visit(part, k, normal of the line that cuts it off) for the components of a plan that is a sequence, first removed

@@ -185,6 +185,45 @@ TEST(ReconstructJunctions, tipBeforeAWedgeOfVoid_staysOnItsSide)
   }
 }
 
+// Three layers, of which two only touch the cell: the tip of one, 1e-5 of it, has just come in below, and the centroid
+// of the other above is off by some hundredths of the cell, as beside a bent face. Its first moment misses more than
+// that of the tip at the wrong end of the cell would.
+//
+//   |____ 2 |
+//   |    ---|
+//   |   1   |
+//   |\0     |
+TEST(ReconstructJunctions, tipBelowALayer_isNotPutAboveIt)
+{
+  Mesh const mesh = makeMesh(6, 6, 1.0);
+  int const cell = 2 * 6 + 2;
+  for (double const part : {2e-6, 1e-5, 1e-4, 1e-3})
+    for (int turn = 0; turn < 12; ++turn)
+    {
+      Vector2 const off{0.06 * std::cos(Math::pi * turn / 6.0), 0.06 * std::sin(Math::pi * turn / 6.0)};
+      // The tip's triangle, on a line that falls by a tenth: height and width have twice its area.
+      Plane2 const low = halfPlane(90.0 - std::atan(0.1) * 180.0 / Math::pi, {2.0, 2.0 + std::sqrt(0.2 * part)});
+      Plane2 const high = halfPlane(85.0, {3.0, 2.96});
+      std::vector<Body> const all{{low}, {opposite(low), high}, {opposite(high)}};
+      CellFills const exact = bodies(all);
+      Scene const scene = paint(mesh,
+                                [&](int where, Quadrilateral const &quad)
+                                {
+                                  std::vector<Fill> fills = exact(where, quad);
+                                  if (where == cell)
+                                    fills.back().centroid += off;
+                                  return fills;
+                                });
+      FilledRegions const regions = reconstructed(scene, 1e-6);
+      Region const &tip = onHost(regions.polygon)(onHost(regions.cell_region)(cell));
+      ASSERT_FALSE(tip.empty());
+      double top = 0.0;
+      for (int v = 0; v < tip.size; ++v)
+        top = std::max(top, tip[v][1] - 2.0);
+      EXPECT_LT(top, 0.5) << part << " of the cell, direction " << turn;
+    }
+}
+
 // The corner of a block that slides on a floor comes into a cell as a sliver, or the void behind it does. Their
 // centroids tell where they are: by least squares, slivers below 1e-3, they lie along the floor as films.
 TEST(ReconstructJunctions, cornerOnAPlane_isExactFromItsFirstMillionthOn)
