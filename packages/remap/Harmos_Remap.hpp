@@ -41,7 +41,7 @@ struct RemapOptions
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
                                       // where damage is tracked, which is carried in its place
   double shortest_bent_edge = 0.1;    // of the cell size; edges inside cells below it stay straight (bendOf)
-  bool part_overlaps = false;         // what moved regions of bodies that pass each other have in common is divided
+  bool part_overlaps = true;          // what moved regions of bodies that pass each other have in common is divided
   bool measure_overlap = false;       // RemapReport::moved_overlap, remapped_overlap; changes nothing else
 };
 

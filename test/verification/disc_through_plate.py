@@ -26,16 +26,27 @@ def test_disc_goes_through_and_everything_is_conserved():
 # 0.49 to 0.59 while what is open leaned the normals of what touches, and fits reached 4 cells (0.22 to 0.25 with 3 cells,
 # 0.34 to 0.37 with 4); before, with one row a facet, where tilted facets are through with their ends, 0.79.
 def test_moved_regions_overlap_little():
-    overlaps, polygons, largest = [], [], []
-    for offset in (0.0, 1e-13, 2e-13):
+    overlaps, polygons, largest, kept = [], [], [], []
+    for x, y in ((0.0, 0.0), (1e-13, 0.0), (0.0, 1e-4)):
         r = harmos(
             "disc_through_plate/deck.yaml",
-            {"bodies/disc/center": f"[{-0.005 + offset!r}, 0.0]", "output/fields/every_time": 0.0,
+            {"bodies/disc/center": f"[{-0.005 + x!r}, {y!r}]", "output/fields/every_time": 0.0,
              "output/fields/at_end": "false", "output/history/polygon_overlap": "true"})
         overlaps.append(r.last("overlap_volume") / 0.00025**2)
         polygons.append(r.last("polygon_overlap") / 0.00025**2)
         largest.append(max(r["polygon_overlap_largest"]))
+        kept.append(r.last("disc.momentum_x") / r.first("disc.momentum_x"))
+        # Of what is remapped: eighteen places gave 0.13 to 0.46 cells over the run and at most 0.014 in a cell and cycle.
+        left = r.last("remapped_overlap") / 0.00025**2
+        print(f"  cells over the whole run: moved {polygons[-1]:.2f}, remapped {left:.2f}")
+        check("what is remapped, cells over the whole run", left, 0.5)
+        check("in any one cell and cycle", max(r["remapped_overlap_largest"]), 0.02)
+        check("mass", r.summary["mass_error"], 1e-12)
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        assert left < 0.3 * polygons[-1]
         clean(r)
+    # Velocities are not touched: without parting it keeps 0.767 to 0.768.
+    check("momentum kept by the disc, from 0.7674", max(abs(k - 0.7674) for k in kept), 2e-3)
     print("  cells over the whole run:", ", ".join(f"{o:.3f}" for o in overlaps))
     check("median overlap of the moved regions, cells over the whole run", sorted(overlaps)[1], 0.4)
     check("the largest", max(overlaps), 0.5)
@@ -45,28 +56,6 @@ def test_moved_regions_overlap_little():
     print("  in any one cell and cycle, of the cell:", ", ".join(f"{p:.4f}" for p in largest))
     check("median of the largest polygon overlap in any one cell and cycle", sorted(largest)[1], 0.02)
     check("the largest", max(largest), 0.03)
-
-
-def test_parted_regions_share_next_to_nothing():
-    # Eight places gave 0.25 to 0.41 cells over the run and at most 0.008 in a cell and cycle.
-    kept = []
-    for offset in (0.0, 1e-13, 2e-13):
-        r = harmos(
-            "disc_through_plate/deck.yaml",
-            {"bodies/disc/center": f"[{-0.005 + offset!r}, 0.0]", "output/fields/every_time": 0.0, "output/fields/at_end": "false",
-             "output/history/polygon_overlap": "true", "numerics/remap/part_overlaps": "true"})
-        moved, left = (r.last(column) / 0.00025**2 for column in ("polygon_overlap", "remapped_overlap"))
-        print(f"  cells over the whole run: moved {moved:.2f}, remapped {left:.2f}")
-        check("what is remapped, cells over the whole run", left, 0.6)
-        check("in any one cell and cycle", max(r["remapped_overlap_largest"]), 0.02)
-        check("mass", r.summary["mass_error"], 1e-12)
-        check("momentum", r.summary["momentum_error"], 1e-12)
-        check("energy ledger", r.summary["energy_error"], 1e-10)
-        assert left < 0.3 * moved
-        kept.append(r.last("disc.momentum_x") / r.first("disc.momentum_x"))
-        clean(r)
-    # Velocities are not touched: without parting it keeps 0.767 to 0.768.
-    check("momentum kept by the disc, from 0.7674", max(abs(k - 0.7674) for k in kept), 2e-3)
 
 
 def apart(place):

@@ -69,8 +69,7 @@ def test_single_velocity_block():
 
 
 def test_disc_through_plate():
-    r = compare("disc_through_plate/deck.yaml", {"output/history/polygon_overlap": "true", "numerics/remap/part_overlaps": "true"},
-                ranks=(2, 3, 4))
+    r = compare("disc_through_plate/deck.yaml", {"output/history/polygon_overlap": "true"}, ranks=(2, 3, 4))
     assert r.last("polygon_overlap") > r.last("overlap_volume") > 0.0
     clean(r)
 

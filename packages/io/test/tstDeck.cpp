@@ -175,7 +175,7 @@ TEST(Deck, Overrides_replaceValuesAndMakeMaps)
 {
   Deck const deck = example({"kinematics=single", "interactions={default: sliding}", "bodies/slider/angle=30",
                              "run/end_time=2", "numerics/remap/order=1", "numerics/remap/limiter=van leer",
-                             "numerics/remap/swept_faces=false", "numerics/remap/part_overlaps=true",
+                             "numerics/remap/swept_faces=false", "numerics/remap/part_overlaps=false",
                              "numerics/reconstruction/removal_order=[ring, void, slider, gas, lower]",
                              "boundaries/left={type: inflow, body: slider, velocity: [2, 0]}"});
   EXPECT_EQ(deck.kinematics, Kinematics::Single);
@@ -184,7 +184,7 @@ TEST(Deck, Overrides_replaceValuesAndMakeMaps)
   EXPECT_EQ(deck.remap.order, 1);
   EXPECT_EQ(deck.remap.limiter, RemapLimiter::VanLeer);
   EXPECT_FALSE(deck.remap.swept_faces);
-  EXPECT_TRUE(deck.remap.part_overlaps);
+  EXPECT_FALSE(deck.remap.part_overlaps);
   EXPECT_EQ(deck.removal_order, (std::vector<int>{3, -1, 2, 1, 0}));
   EXPECT_EQ(deck.boundary[Left].kind, BoundaryKind::Inflow);
   EXPECT_EQ(deck.boundary[Left].material, 2);

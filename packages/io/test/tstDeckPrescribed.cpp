@@ -153,7 +153,7 @@ TEST(DeckIdleKeys, keysWithoutUseForTheKinematics_areNamedWhereTheyDifferFromThe
   EXPECT_EQ(blocks("lagrangian", given), of_remap);
   for (char const *kinematics : {"xfem", "single"})
     EXPECT_EQ(blocks(kinematics, given), std::vector<std::string>{"numerics/subzonal_pressure"});
-  std::vector<std::string> const parted = {"numerics/remap/part_overlaps=true"};
+  std::vector<std::string> const parted = {"numerics/remap/part_overlaps=false"};
   EXPECT_TRUE(blocks("xfem", parted).empty());
   EXPECT_EQ(blocks("single", parted), std::vector<std::string>{"numerics/remap/part_overlaps"});
 }

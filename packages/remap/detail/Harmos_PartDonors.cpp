@@ -32,13 +32,13 @@ constexpr double along = 1e-5;
 constexpr double steepest = 4.0;
 
 /// Splinters of less are no thicker than what `along` passes over. [of the cell]
-constexpr double least_fraction = 1e-3;
+constexpr double least_fraction = 1e-4;
 
 /// Edges that cross by less meet. [of the cell]
 constexpr double least_fold = 1e-9;
 
 /// What a region keeps of its area at least; else it stays as it is.
-constexpr double least_kept = 0.5;
+constexpr double least_kept = 0.1;
 
 struct PartFunctor
 {
