@@ -41,6 +41,23 @@ public:
     return told;
   }
 
+  /// Whether the neighbours can hold what lies beyond a corner in the cell. Two lines that leave it go on: between 40
+  /// and 150 degrees they leave at least 0.36 of a cell and 2.9 times what is in the cell to eight square neighbours,
+  /// and one of these empty at least. (Measured: 6,000 corners anywhere in the cell, for each of four angles.) A
+  /// fragment ends before. \param own What the body fills of the cell.
+  KOKKOS_INLINE_FUNCTION bool goesOn(double own) const
+  {
+    constexpr double least_sum = 0.3, least_ratio = 2.0, least_fraction = 1e-9;
+    double sum = 0.0;
+    bool empty = false;
+    for (int j = 0; j < count; ++j)
+    {
+      sum += fraction_[j];
+      empty = empty || fraction_[j] < least_fraction;
+    }
+    return count < most_neighbours || (empty && sum > least_sum && sum > least_ratio * own);
+  }
+
   /// Part of neighbour j behind all lines, less that which the body fills.
   KOKKOS_INLINE_FUNCTION double miss(int j, Plane2 const *line, int lines) const
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReconstructScene.hpp"
 
+#include <Harmos_BodyAround.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -125,4 +127,59 @@ TEST(ReconstructCorners, fragmentOnAPlane_keepsAStraightLine)
     auto const cut = onHost(regions.cut_component);
     EXPECT_GE(cut(first(3 * 7 + 3)), 0);
   }
+}
+
+// What has flowed has no straight edges, and keeps one line: the same square has its corners before.
+TEST(ReconstructCorners, bodyThatHasFlowed_keepsStraightLines)
+{
+  Mesh const mesh = makeMesh(8, 8, 1.0);
+  Body square;
+  for (double const degrees : {20.0, 110.0, 200.0, 290.0})
+    square.push_back(halfPlane(degrees, Vector2{4.1, 3.9} + 2.0 * halfPlane(degrees, {0.0, 0.0}).normal));
+  auto const corners = [&](double strain)
+  {
+    Scene const scene = paint(mesh, bodies({square}));
+    for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+      scene.state.record(pair, PlasticStrain) = strain;
+    auto const cut = onHost(reconstructed(scene, sliver).cut_component);
+    int number = 0;
+    for (std::size_t i = 0; i < cut.extent(0); ++i)
+      number += cut(i) < 0 ? 1 : 0;
+    return number;
+  };
+  EXPECT_EQ(corners(0.09), 4);
+  EXPECT_EQ(corners(0.11), 0);
+}
+
+// Searches for a corner are left out where the neighbours do not hold what would lie beyond it: not one corner's cell,
+// but those of a piece of debris, and of a round body that fills all around.
+TEST(ReconstructCorners, cornersGoOnInTheNeighbours_fragmentsDoNot)
+{
+  Mesh const mesh = makeMesh(7, 7, 1.0);
+  int const cell = 3 * 7 + 3;
+  auto const goesOn = [&](Body const &body)
+  {
+    Scene const scene = paint(mesh, bodies({body}));
+    ReconstructionField const field{scene.mesh, scene.pairs, scene.state.record, scene.state.centroid};
+    CellComponents const components = cellComponents(field, cell, true);
+    return BodyAround(field, components, 0).goesOn(components.volume[0]);
+  };
+  for (double const opening : {40.0, 90.0, 140.0})
+    for (double degrees = 0.0; degrees < 360.0; degrees += 7.0)
+      for (double const place : {0.05, 0.5, 0.95})
+      {
+        Vector2 const apex{3.0 + place, 3.95 - 0.3 * place};
+        Body const corner{halfPlane(degrees + 90.0 + 0.5 * opening, apex),
+                          halfPlane(degrees - 90.0 - 0.5 * opening, apex)};
+        EXPECT_TRUE(goesOn(corner)) << opening << " degrees towards " << degrees;
+      }
+  auto const round = [](double radius)
+  {
+    Body disc;
+    for (double degrees = 5.0; degrees < 360.0; degrees += 10.0)
+      disc.push_back(halfPlane(degrees, Vector2{3.4, 3.55} + radius * halfPlane(degrees, {0.0, 0.0}).normal));
+    return disc;
+  };
+  for (double const radius : {0.45, 0.55, 0.6, 0.65})
+    EXPECT_FALSE(goesOn(round(radius))) << radius;
 }
