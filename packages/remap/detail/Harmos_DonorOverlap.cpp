@@ -25,19 +25,13 @@ struct OverlapFunctor
   template <class Visitor>
   KOKKOS_INLINE_FUNCTION void forDonorsIn(int acceptor, Bounds const &around, Visitor const &visit) const
   {
-    forCellAndNeighbours(in.mesh, in.links, acceptor,
-                         [&](int cell, int, int)
-                         {
-                           int const index = classes.interface_index(cell);
-                           if (index < 0)
-                             return;
-                           for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
-                           {
-                             Bounds const both = bounds(donor).with(around);
-                             if (!both.empty())
-                               visit(donor, both);
-                           }
-                         });
+    forDonorsAround(in, classes, donors, acceptor,
+                    [&](int, int donor)
+                    {
+                      Bounds const both = bounds(donor).with(around);
+                      if (!both.empty())
+                        visit(donor, both);
+                    });
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int index) const

@@ -262,17 +262,6 @@ void moveDonors(Input const &in, Classes const &classes, StageState const &stage
   Kokkos::parallel_for("Harmos::remap::moveDonors", RangePolicy(0, cells), MoveFunctor{in, classes, stage, donors});
 }
 
-void placeQuietRegions(Input const &in, Classes const &classes, Donors const &donors)
-{
-  Kokkos::parallel_for(
-      "Harmos::remap::placeQuietRegions", RangePolicy(0, classes.num_interface), KOKKOS_LAMBDA(int index) {
-        int const cell = classes.interface_cell(index);
-        for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
-          if (donors.head(donor).kind == QuietDonor)
-            stillRegion(in, cell, donors.head(donor).pair, in.startQuadrilateral(cell), donors.polygon(donor));
-      });
-}
-
 void moveOtherRegions(Input const &in, Classes const &classes, Donors const &donors)
 {
   Kokkos::parallel_for(

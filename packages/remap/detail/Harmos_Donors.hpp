@@ -109,9 +109,6 @@ KOKKOS_INLINE_FUNCTION bool isFolded(Region const &region, double least = 0.0)
 /// The donors' values.
 void moveDonors(Input const &in, Classes const &classes, StageState const &stage, Donors &donors);
 
-/// The polygons of quiet donors, after moveDonors: their filled regions, where they are.
-void placeQuietRegions(Input const &in, Classes const &classes, Donors const &donors);
-
 /// The polygons that moveDonors leaves out, after it: quiet donors where they are, rigid bodies' filled regions moved
 /// with their dof nodes, degenerate donors without vertices.
 void moveOtherRegions(Input const &in, Classes const &classes, Donors const &donors);

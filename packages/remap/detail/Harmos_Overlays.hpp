@@ -93,6 +93,23 @@ KOKKOS_INLINE_FUNCTION void forCellAndNeighbours(Mesh const &mesh, NeighbourLink
     visit(cell, 0, 0);
 }
 
+/// Visits the donors that begin in `cell` and in the cells around it, in ascending order.
+/// \param visit (cell of the donor, donor)
+template <class Visitor>
+KOKKOS_INLINE_FUNCTION void forDonorsAround(Input const &in, Classes const &classes, Donors const &donors, int cell,
+                                            Visitor const &visit)
+{
+  forCellAndNeighbours(in.mesh, in.links, cell,
+                       [&](int near, int, int)
+                       {
+                         int const index = classes.interface_index(near);
+                         if (index < 0)
+                           return;
+                         for (int donor = donors.offset(index); donor < donors.offset(index + 1); ++donor)
+                           visit(near, donor);
+                       });
+}
+
 /// Intersect every moving donor with its own cell and the vertex neighbours, and integrate its polynomial there. Whole
 /// donors overlap their own cell alone.
 ///

@@ -120,18 +120,14 @@ struct PartFunctor
     int const material = donors.head(donor).material;
     bool const rough = work.rough(donor) != 0;
     Candidates candidates;
-    forCellAndNeighbours(in.mesh, in.links, cell,
-                         [&](int near, int, int)
-                         {
-                           int const index = classes.interface_index(near);
-                           if (index < 0)
-                             return;
-                           for (int other = donors.offset(index); other < donors.offset(index + 1); ++other)
-                             if ((rough || work.rough(other) != 0) && takesPart(other) &&
-                                 donors.head(other).material != material &&
-                                 !bounds.with(boundsOf(donors.polygon(other))).empty())
-                               addArcs(cell, donor, near, other, candidates);
-                         });
+    forDonorsAround(in, classes, donors, cell,
+                    [&](int near, int other)
+                    {
+                      if ((rough || work.rough(other) != 0) && takesPart(other) &&
+                          donors.head(other).material != material &&
+                          !bounds.with(boundsOf(donors.polygon(other))).empty())
+                        addArcs(cell, donor, near, other, candidates);
+                    });
     OutlineArcs arcs;
     for (int i = 0; i < candidates.size; ++i)
       arcs.add(candidates.arc[i], region.size);
@@ -216,7 +212,7 @@ void partDonors(Input const &in, Classes const &classes, Donors const &donors, P
   grow(work.rough, "rough", donors.num);
   if (findRough(in, classes, donors, work.rough) == 0)
     return;
-  placeQuietRegions(in, classes, donors);
+  moveOtherRegions(in, classes, donors);
   grow(work.parted, "parted", donors.num);
   grow(work.polygon, "partedPolygon", donors.num);
   Kokkos::parallel_for("Harmos::remap::partDonors", RangePolicy(0, cells), PartFunctor{in, classes, donors, work});
