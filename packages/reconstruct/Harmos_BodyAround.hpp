@@ -20,7 +20,8 @@ public:
   {
     Rows const &neighbours = field.mesh.cell_neighbour;
     int const first = neighbours.offset(components.cell);
-    count = Math::min(most_neighbours, neighbours.offset(components.cell + 1) - first);
+    all_ = neighbours.offset(components.cell + 1) - first;
+    count = Math::min(most_neighbours, all_);
     for (int j = 0; j < count; ++j)
     {
       int const cell = neighbours.item(first + j);
@@ -44,10 +45,13 @@ public:
   /// Whether the neighbours can hold what lies beyond a corner in the cell. Two lines that leave it go on: between 40
   /// and 150 degrees they leave at least 0.36 of a cell and 2.9 times what is in the cell to eight square neighbours,
   /// and one of these empty at least. (Measured: 6,000 corners anywhere in the cell, for each of four angles.) A
-  /// fragment ends before. \param own What the body fills of the cell.
+  /// fragment ends before. On stretched cells, whose fractions are those of squares with another corner, the sum may be
+  /// 0.2. Where there are not eight neighbours nothing is said.
+  ///
+  /// \param own What the body fills of the cell.
   KOKKOS_INLINE_FUNCTION bool goesOn(double own) const
   {
-    constexpr double least_sum = 0.3, least_ratio = 2.0, least_fraction = 1e-9;
+    constexpr double least_sum = 0.2, least_ratio = 2.0, least_fraction = 1e-9;
     double sum = 0.0;
     bool empty = false;
     for (int j = 0; j < count; ++j)
@@ -55,7 +59,7 @@ public:
       sum += fraction_[j];
       empty = empty || fraction_[j] < least_fraction;
     }
-    return count < most_neighbours || (empty && sum > least_sum && sum > least_ratio * own);
+    return all_ != most_neighbours || (empty && sum > least_sum && sum > least_ratio * own);
   }
 
   /// Part of neighbour j behind all lines, less that which the body fills.
@@ -92,6 +96,7 @@ private:
   }
 
   CellComponents const &components_;
+  int all_; // neighbours
   Quadrilateral quad_[most_neighbours];
   double quad_volume_[most_neighbours], fraction_[most_neighbours];
 };

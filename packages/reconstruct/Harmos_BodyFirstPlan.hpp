@@ -70,7 +70,8 @@ KOKKOS_INLINE_FUNCTION double turnSecondLine(CellComponents const &components, B
     angle[lower ? 0 : 1] = next;
     misfit[lower ? 0 : 1] = misfitAt(next);
   }
-  return misfitAt(misfit[0] < misfit[1] ? angle[0] : angle[1]);
+  double const nearer = misfit[0] < misfit[1] ? angle[0] : angle[1];
+  return misfitAt(Math::min(misfit[0], misfit[1]) < least ? nearer : best);
 }
 
 /// Two bodies and void, none a sliver, that the given sequence cuts void off first: one body first, where the
@@ -80,10 +81,10 @@ KOKKOS_INLINE_FUNCTION double turnSecondLine(CellComponents const &components, B
 /// the bar's line tilts for it: all three first moments stay as well as with the bar cut first, to what bent edges
 /// leave of them. Round-off decided, and the next cycle found a bar that ended under the void; blocks hooked to it.
 /// The neighbours, full of the bar, know better. So where both lines, continued, miss them by a tenth of a cell, the
-/// body goes first whose lines miss them by a tenth of that, if no first moment is off by more than a tenth of the
-/// least volume. Void of some 1e-3 of the cell has no centroid to speak of where the bodies' edges are bent: if by that
-/// the lines do not fit, the void's is turned to the neighbours. Void between the bodies stays with the order that
-/// suits the moments.
+/// body goes first whose lines miss them by a tenth of that, if the error (momentError) is that of first moments off by
+/// a tenth of the least volume at most. Void of some 1e-3 of the cell has no centroid to speak of where the bodies'
+/// edges are bent: if by that the lines of neither order fit, the void's is turned to the neighbours. Void between the
+/// bodies stays with the order that suits the moments.
 KOKKOS_INLINE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field, CellComponents const &components,
                                                  SliverBounds const &slivers, RemovalPlan const &given)
 {
@@ -108,25 +109,29 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &fiel
     return given;
   RemovalPlan best = given;
   double best_misfit = much_better * misfit;
-  for (int first = 0; first < 2; ++first)
+  int unfinished = given.unfinished;
+  for (int pass = 0; pass < 2 && best.component[0] == open; ++pass)
   {
-    int const order[max_components] = {first, 1 - first, open};
-    RemovalPlan plan = fixedPlan(field, components, ReconstructionMethod::MomentOfFluid, slivers, order);
-    double its_misfit = continuedMisfit(components, plan, around);
-    if (!(its_misfit < best_misfit))
-      its_misfit = turnSecondLine(components, around, plan);
-    plan.error = 0.0;
-    forEachPart(components, plan,
-                [&](Region const &part, int k, Vector2 const &normal)
-                { plan.error += momentError(components, slivers, part, k, normal); });
-    best.unfinished += plan.unfinished;
-    if (its_misfit < best_misfit && plan.error <= most_miss * most_miss * least * least)
+    bool const turned = pass == 1;
+    for (int first = 0; first < 2; ++first)
     {
-      plan.unfinished = best.unfinished;
-      best = plan;
-      best_misfit = its_misfit;
+      int const order[max_components] = {first, 1 - first, open};
+      RemovalPlan plan = fixedPlan(field, components, ReconstructionMethod::MomentOfFluid, slivers, order);
+      unfinished += turned ? 0 : plan.unfinished;
+      double const its_misfit =
+          turned ? turnSecondLine(components, around, plan) : continuedMisfit(components, plan, around);
+      plan.error = 0.0;
+      forEachPart(components, plan,
+                  [&](Region const &part, int k, Vector2 const &normal)
+                  { plan.error += momentError(components, slivers, part, k, normal); });
+      if (its_misfit < best_misfit && plan.error <= most_miss * most_miss * least * least)
+      {
+        best = plan;
+        best_misfit = its_misfit;
+      }
     }
   }
+  best.unfinished = unfinished;
   return best;
 }
 

@@ -172,8 +172,8 @@ KOKKOS_INLINE_FUNCTION double straightMisfit(ReconstructionField const &field, C
 /// Most cells are left after a look at the centroid, for a convex corner's lies farther out than the straight line's
 /// part, and at the neighbours: the line through a corner's cell misses theirs by a tenth of a cell, and they hold what
 /// lies beyond the corner. Nor has matter straight edges that has flowed; but it may be drawn out to a plate thinner
-/// than a cell. (In a cloud of debris all but 2% of the searches ended nowhere, most of them in such matter, half of
-/// them in fragments.)
+/// than a cell, and beyond a second body what goes on is not known. (In a cloud of debris all but 2% of the searches
+/// ended nowhere, most of them in such matter, half of them in fragments.)
 ///
 /// \param normal Of the straight line; leaves the body.
 KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,

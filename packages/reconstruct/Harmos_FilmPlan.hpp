@@ -108,7 +108,7 @@ KOKKOS_INLINE_FUNCTION void placeFilms(CellComponents const &components, Removal
 /// centroids came from there: the ends of two blocks that part from each other stood off the third by a wedge that
 /// grew. What the void misses there grows with it, until a sequence misses less that cuts a block's line on through the
 /// bar: the bar lost its tip to the block, and both hooked to each other.
-/// \param error Of the given plan: sum over the bodies of |first moment found - given|^2.
+/// \param error Of the given plan: sum over the bodies of momentError.
 KOKKOS_INLINE_FUNCTION RemovalPlan filmPlan(ReconstructionField const &field, CellComponents const &components,
                                             SliverBounds const &slivers, RemovalPlan const &given, double error)
 {

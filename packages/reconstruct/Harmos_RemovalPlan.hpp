@@ -203,7 +203,7 @@ KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, Sliv
 }
 
 /// visit(part, k, normal of the line that cuts it off) for the components of a plan that is a sequence, first removed
-/// first.
+/// first; the last one lies beyond the line before.
 template <class Visit>
 KOKKOS_INLINE_FUNCTION void forEachPart(CellComponents const &components, RemovalPlan const &plan, Visit const &visit)
 {
@@ -218,7 +218,7 @@ KOKKOS_INLINE_FUNCTION void forEachPart(CellComponents const &components, Remova
     visit(division.inside, k, plan.normal[i]);
     polygon = division.outside;
   }
-  visit(polygon, plan.component[plan.count - 1], plan.normal[plan.count - 1]);
+  visit(polygon, plan.component[plan.count - 1], plan.normal[Math::max(0, plan.count - 2)]);
 }
 
 /// Removal in a given order.

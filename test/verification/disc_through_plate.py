@@ -36,7 +36,7 @@ def test_moved_regions_overlap_little():
         polygons.append(r.last("polygon_overlap") / 0.00025**2)
         largest.append(max(r["polygon_overlap_largest"]))
         kept.append(r.last("disc.momentum_x") / r.first("disc.momentum_x"))
-        # Of what is remapped: eighteen places gave 0.13 to 0.46 cells over the run and at most 0.014 in a cell and cycle.
+        # Of what is remapped: eighteen places gave 0.13 to 0.36 cells over the run and at most 0.014 in a cell and cycle.
         left = r.last("remapped_overlap") / 0.00025**2
         print(f"  cells over the whole run: moved {polygons[-1]:.2f}, remapped {left:.2f}")
         check("what is remapped, cells over the whole run", left, 0.5)

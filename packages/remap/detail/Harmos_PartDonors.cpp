@@ -31,7 +31,7 @@ constexpr double along = 1e-5;
 /// no row holds; it is for the next cycle's rows to see.
 constexpr double steepest = 4.0;
 
-/// Splinters of less are no thicker than what `along` passes over. [of the cell]
+/// Splinters of less hold next to nothing. [of the cell]
 constexpr double least_fraction = 1e-4;
 
 /// Edges that cross by less meet. [of the cell]
