@@ -56,7 +56,12 @@ struct CellComponents
   /// First moment of a region less that which component k would have at its centroid with the region's volume.
   KOKKOS_INLINE_FUNCTION Vector2 firstMiss(Region const &region, int k) const
   {
-    Moments<1> const m = momentsOf(region);
+    return firstMiss(momentsOf(region), region, k);
+  }
+
+  /// \param m momentsOf(region)
+  KOKKOS_INLINE_FUNCTION Vector2 firstMiss(Moments<1> const &m, Region const &region, int k) const
+  {
     return Vector2{m.first(0), m.first(1)} + m.volume() * (region[0] - centroid[k]);
   }
 

@@ -188,17 +188,18 @@ KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, Sliv
   bool const sliver = volume < slivers.of(components, k);
   if (region.empty() || (sliver && components.material[k] == void_material))
     return 0.0;
+  Moments<1> const m = components.momentsOf(region);
   double misplaced = 0.0;
   if (components.material[k] != void_material)
   {
-    Vector2 const found = region[0] + components.momentsOf(region).centroid();
+    Vector2 const found = region[0] + m.centroid();
     double const across = dot(n, found - components.centroid[k]);
     if (beyondAnother(components, slivers, n, found, k))
       misplaced = sliver_penalty * volume * across * across;
   }
   if (sliver)
     return misplaced;
-  Vector2 const first = components.firstMiss(region, k);
+  Vector2 const first = components.firstMiss(m, region, k);
   return dot(first, first) + misplaced;
 }
 
