@@ -23,6 +23,7 @@ public:
   {
     constexpr double none = 1.0e300, rigid = 1e-6, deformable_shift = 1e-13;
     LowerTriangle const &a = problem.matrix;
+    rubs_ = std::any_of(problem.normal_of.begin(), problem.normal_of.end(), [](int normal) { return normal >= 0; });
     for (int i = 0; i < n_; ++i)
       for (int e = a.offset[i]; e < a.offset[i + 1]; ++e)
         if (a.column[e] == i && a.value[e] > rigid)
@@ -42,7 +43,7 @@ public:
     bool const inside_first = many_change_ || n_ > 100;
     if (!reached() && inside_first)
       followInterior();
-    else if (!reached())
+    else if (!reached() && rubs_)
       exchangeActiveSets(true);
     std::vector<ImpulseBounds> before = bounds_;
     for (int round = 0; iterations_ < max_iterations_; ++round)
@@ -72,7 +73,7 @@ private:
   /// Across n, by friction.
   bool rubs(int i) const { return problem_.normal_of[i] >= 0; }
 
-  /// Whether unknowns that are dropped one by one take long, and no path was followed yet.
+  /// Whether other steps took long, and no path was followed yet.
   bool drags() const { return !followed_ && iterations_ >= patient_iterations_; }
 
   /// The gradient at x, which most steps have already.
@@ -181,32 +182,34 @@ private:
 
   /// Primal-dual active sets: an unknown is free where x - g lies between its bounds, else at the bound beyond which it
   /// lies; a Newton step of the free ones may leave their bounds, which the next sets mend. Whole sets change at once,
-  /// so that places far from each other settle together; the residual may grow on the way. What was best is kept, and
-  /// left to other steps where a few sets do not halve it (fewer where many unknowns change places) or throw it far
-  /// beyond the first one.
+  /// so that places far from each other settle together; the residual may grow on the way: where rows are next to
+  /// dependent, sets that part two of them throw it far beyond the first one, and the next ones mend that, too. What
+  /// was best is kept, and left to other steps where a few sets do not halve it (fewer where many unknowns change
+  /// places), some in a row throw it far, or all took long.
   /// \param coupled Whether a step knows that sliding impulses go with those along n; then it takes an iteration or
   /// more longer, and only where bodies are rigid are fewer sets needed.
   /// \param patient Sets in a row that need not halve the residual, where few unknowns change places.
   void exchangeActiveSets(bool coupled = false, int patient = patient_)
   {
-    constexpr int few = 8;
+    constexpr int few = 8, most_thrown = 3;
     constexpr double far = 10.0;
     int patience = patient;
     Vector best = x_, point, slope = g_;
     double least = 1e300;
-    for (int worse = 0; least > enough_ && iterations_ < max_iterations_;)
+    for (int worse = 0, thrown = 0; least > enough_ && iterations_ < max_iterations_ && !drags();)
     {
       point = x_;
       moveReach();
       updateGradient();
       double const reached = violation();
       worse = reached < 0.5 * least ? 0 : worse + 1;
+      thrown = start_ > 0.0 && reached > far * start_ ? thrown + 1 : 0;
       if (reached < least)
       {
         least = reached;
         best = x_;
       }
-      if (least <= enough_ || worse > patience || (start_ > 0.0 && reached > far * start_))
+      if (least <= enough_ || worse > patience || thrown >= most_thrown)
         break;
       setShift(0.1, least);
       if (point == x_)
@@ -403,6 +406,7 @@ private:
   int const max_iterations_;
   int const n_;
   ShiftedSystem system_;
+  bool rubs_ = false;                 // some unknown is across n, by friction
   std::vector<ImpulseBounds> bounds_; // across n with friction they follow the impulses along n
   Vector x_, g_;
   bool current_ = true; // g is the gradient at x
