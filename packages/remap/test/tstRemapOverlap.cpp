@@ -262,6 +262,23 @@ TEST(PartedRegions, ofWhatCreeps_orHasNotFlowed_orComesStraightOn_areNone)
   EXPECT_FALSE(parted({0.001 * h, 0.0044 * h}, {-0.001 * h, 0.0}, 0.2)); // apart by less than 0.005 cells
 }
 
+TEST(PartedRegions, ofLessThan1e4OfACell_areNone)
+{
+  // A film beside a block goes half of its thickness into it, and up along it.
+  auto const parted = [](double thickness)
+  {
+    double const x = (4.0 - thickness) * h;
+    Scene scene = flowed(openScene(
+        {halfPlane(-1, {x, 0.0}, 0.0), halfPlane(0, {4.0 * h, 0.0}, 0.0), cells(1, 4.0 * h, 0.0, 8.0 * h, 8.0 * h)},
+        {{0.5 * thickness * h, 0.4 * h}, {0.0, 0.0}}));
+    scene.remapped();
+    EXPECT_GT(scene.report.moved_overlap.volume, 0.0) << thickness;
+    return scene.report.remapped_overlap.volume < 0.01 * scene.report.moved_overlap.volume;
+  };
+  EXPECT_TRUE(parted(2.0e-4));
+  EXPECT_FALSE(parted(0.9e-4));
+}
+
 TEST(PartedRegions, ofADiscThatTurnsInABlock_conserveAll)
 {
   // The facets of its rim run into those of the block: as an impulse could not, parting takes nearly all of that away.
