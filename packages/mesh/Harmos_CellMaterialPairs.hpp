@@ -73,6 +73,14 @@ enum PairField : int
   num_pair_fields = 8
 };
 
+/// Whether matter has flowed so far that its outlines keep nothing of the straight edges and smooth facets they began
+/// with: no corner is looked for there (Harmos_CornerCell.hpp), and facets are parted (detail/Harmos_PartDonors.hpp).
+/// \param plastic_strain Equivalent.
+KOKKOS_INLINE_FUNCTION bool hasFlowed(double plastic_strain)
+{
+  return plastic_strain > 0.1;
+}
+
 /// State at one time level, numbered as the pairs and dof nodes that it belongs to.
 struct PairState
 {

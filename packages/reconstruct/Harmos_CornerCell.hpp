@@ -182,7 +182,6 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
 {
   constexpr double misfit_weight = 0.1, least_miss = 1e-9, poor_misfit = 1e-2, near_exact = 1e-6, hopeful = 1e-3;
   constexpr double quarter = 0.7853981633974483; // of pi
-  constexpr double most_strain = 0.1;            // equivalent plastic strain of matter whose edges may be straight
   constexpr int starts = 5, most_searches = 3;
   double const volume = components.volume[body], open = components.volume[components.count - 1];
   double const smaller = Math::min(volume, open);
@@ -210,7 +209,7 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
     cell = bestCornerCell(problem, cell, hopeful * one_line.error);
   double const strain = field.record(field.pairs.offset(components.cell) + body, PlasticStrain);
   bool const fragment = rim == nullptr && !problem.around.goesOn(volume);
-  if ((strain > most_strain || fragment) && !(cell.error <= exact))
+  if ((hasFlowed(strain) || fragment) && !(cell.error <= exact))
     return {};
   CornerCell start[starts];
   for (int i = 0; i < starts && !(cell.error <= exact); ++i)

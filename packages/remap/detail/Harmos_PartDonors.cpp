@@ -15,10 +15,7 @@ namespace RemapDetail
 namespace
 {
 
-/// Matter of less equivalent plastic strain has facets that stay as smooth as they began; they are left as they are.
-constexpr double least_flow = 0.1;
-
-/// So are those at nodes whose materials move apart by less in the step. [cell sizes]
+/// Regions at nodes whose materials move apart by less in the step stay as they are. [cell sizes]
 constexpr double least_passing = 0.005;
 
 /// Lenses of less stay: many a cell has some, and all of them together are next to nothing. [of the cell]
@@ -195,7 +192,7 @@ int findRough(Input const &in, Classes const &classes, Donors const &donors, Vie
         {
           DonorHead const head = donors.head(donor);
           // Of before stage 1: after it records are right to one layer of the halo less.
-          bool const flowed = head.kind != RigidDonor && in.state.record(head.pair, PlasticStrain) > least_flow;
+          bool const flowed = head.kind != RigidDonor && hasFlowed(in.state.record(head.pair, PlasticStrain));
           rough(donor) = flowed && passes(in, cell) ? 1 : 0;
           sum += rough(donor);
         }
