@@ -263,7 +263,7 @@ DualProblem coarsen(DualProblem const &fine, int unknowns, Spread &spread)
       body.push_back({e.coarse, entry.component, e.weight * fine.root[entry.unknown] * entry.jacobian});
   matrix = merged(matrix);
   body = merged(body);
-  std::vector<double> diagonal(unknowns, 0.0), rigid(unknowns, 0.0);
+  std::vector<double> diagonal(unknowns, 0.0), rigid(unknowns, 0.0), held(unknowns, 0.0);
   for (MatrixEntry const &x : matrix)
   {
     diagonal[x.row] += std::fabs(x.value);
@@ -271,9 +271,14 @@ DualProblem coarsen(DualProblem const &fine, int unknowns, Spread &spread)
   }
   for (MatrixEntry const &x : body)
     rigid[x.row] += x.value * x.value * coarse.body_weight[x.column];
+  for (int u = 0; u < fine.size(); ++u)
+    for (Spread::Entry const &e : by_fine[u])
+      held[e.coarse] += e.weight * e.weight * fine.root[u] * fine.root[u];
   for (int i = 0; i < unknowns; ++i)
   {
-    coarse.root.push_back(std::sqrt(diagonal[i] > 1e-12 * rigid[i] ? diagonal[i] : rigid[i]));
+    // Where node conditions leave nothing free to move, what the rows have without them (rowSum).
+    bool const moves = diagonal[i] > 1e-12 * std::max(rigid[i], held[i]);
+    coarse.root.push_back(std::sqrt(moves ? diagonal[i] : rigid[i] > 0.0 ? rigid[i] : held[i]));
     coarse.b[i] /= coarse.root[i];
     if (coarse.normal_of[i] >= 0)
       coarse.friction[i] *= coarse.root[i] / coarse.root[i - 1];

@@ -88,4 +88,17 @@ def test_what_cannot_work_together_is_refused():
             assert not out.exists(), f"{name}: something was written"
 
 
+def test_every_placement_gives_way_to_walls_that_hold_everything_across():
+    # A single row of cells between slip walls: nothing can move across the interface's normal, and groups of rows have no mass there.
+    for interactions in ("{default: bonded}", "{default: friction, coefficient: 0.3}"):
+        found = {}
+        for placement in ("midpoint", "vital vertices", "mortar"):
+            r = harmos("two_bars/deck.yaml", {f"{CONSTRAINT}/placement": placement, "interactions": interactions})
+            found[placement] = r.last("left.momentum_x")
+            clean(r)
+        print(f"  {interactions}: {found}")
+        for placement, momentum in found.items():
+            assert abs(momentum / found["midpoint"] - 1.0) < 1e-5, (placement, momentum)
+
+
 run(globals())
