@@ -17,30 +17,33 @@ double overlap(Run const &run, std::array<int, 2> const &pair)
 {
   std::vector<Shape> const all = presentShapes(run.scene, run.state.bodies);
   Shape const shape[2] = {all[pair[0]], all[pair[1]]};
-  double most = 0.0;
-  if (shape[0].boundingBox().meets(shape[1].boundingBox()))
-  {
-    std::vector<double> filled(run.scene.mesh.num_cells, -1.0);
-    for (Shape const &one : shape)
-    {
-      PaintedRows const rows = rigidVolumes(run.scene.mesh, {one}, {0});
-      auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.offset);
-      auto const fraction = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.volume_fraction);
-      for (std::size_t cell = 0; cell < filled.size(); ++cell)
-        for (int row = offset(cell); row < offset(cell + 1); ++row)
-        {
-          filled[cell] += fraction(row);
-          most = std::max(most, filled[cell]);
-        }
-    }
-  }
-  return run.exchange->max(most);
+  bool const meet = shape[0].boundingBox().meets(shape[1].boundingBox());
+  return run.exchange->max(meet ? mostFilled(run.scene.mesh, shape) - 1.0 : 0.0);
 }
 
 /// Bodies that touch overlap by round-off.
 constexpr double touching = 1e-6;
 
 } // namespace
+
+double mostFilled(Mesh const &mesh, Shape const (&shape)[2])
+{
+  std::vector<double> filled(mesh.num_cells, 0.0);
+  double most = 0.0;
+  for (Shape const &one : shape)
+  {
+    PaintedRows const rows = rigidVolumes(mesh, {one}, {0});
+    auto const offset = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.offset);
+    auto const fraction = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.volume_fraction);
+    for (std::size_t cell = 0; cell < filled.size(); ++cell)
+      for (int row = offset(cell); row < offset(cell + 1); ++row)
+      {
+        filled[cell] += fraction(row);
+        most = std::max(most, filled[cell]);
+      }
+  }
+  return most;
+}
 
 void watchRigidBodies(Run &run)
 {

@@ -41,7 +41,8 @@ struct Run
   PhaseTimes times;
   double output_seconds = 0.0;
   std::vector<std::string> warnings;
-  std::vector<std::array<int, 2>> watched; // rigid bodies that nothing would keep from running into one another
+  std::vector<std::array<int, 2>> watched;       // rigid bodies that nothing would keep from running into one another
+  std::vector<std::array<int, 2>> watched_walls; // free rigid bodies, and sides of the mesh that would not hold them
   Kokkos::Timer timer;
   std::clock_t cpu_start = std::clock();
   long long first_cycle = 0;
@@ -59,11 +60,21 @@ std::string placeOf(Run const &run, int cell, int material);
 /// The cell in which an interface could not be placed, and why where it holds too many materials.
 std::string failedCell(Run const &run, ReconstructionReport const &report);
 
+/// What two shapes fill together of the cell that they fill most, over its volume.
+double mostFilled(Mesh const &mesh, Shape const (&shape)[2]);
+
 /// Note the pairs of fixed and prescribed rigid bodies, one of them prescribed, that do not overlap.
 void watchRigidBodies(Run &run);
 
 /// A warning for each watched pair that has run into one another; it is watched no longer. Collective.
 void reportRigidOverlap(Run &run);
+
+/// Note the free rigid bodies and the slip walls and fixed sides before them; a warning for each that reaches beyond
+/// one already.
+void watchWalls(Run &run);
+
+/// A warning for each that has gone through; it is watched no longer.
+void reportPassedWalls(Run &run);
 
 /// Part of Ledger::first_step below which a run would crawl for ever.
 constexpr double smallest_step = 1e-10;

@@ -251,7 +251,7 @@ void warnOfIdleKeys(Run &run)
     return;
   bool const prescribed = run.deck.prescribed.kind != FieldKind::None;
   warn(run, joined(run.deck.idle_keys) + ": without effect in this run (" +
-                (prescribed ? "a prescribed velocity" : "these kinematics") + ")");
+                (prescribed ? "a prescribed velocity" : "these kinematics and bodies") + ")");
 }
 
 /// "mesh: 200 x 100 cells", or the cells of all blocks.
@@ -265,6 +265,26 @@ std::string sizeOf(Deck const &deck)
   return "mesh: " + std::to_string(deck.x.cells) + " x " + std::to_string(deck.y.cells) + " cells";
 }
 
+/// \throw std::runtime_error where a body is cut out of a rigid one: contact and motion go by its outline, which has no
+/// hole but an annulus's.
+void refuseCutRigidBodies(Deck const &deck, Mesh const &mesh)
+{
+  constexpr double touching = 1e-6; // of a cell
+  if (deck.kinematics == Kinematics::Lagrangian)
+    return;
+  for (std::size_t i = 0; i < deck.bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < deck.bodies.size(); ++j)
+    {
+      if (!deck.laws[deck.bodies[i].law].rigid || !deck.bodies[j].cut)
+        continue;
+      Shape const shape[2] = {paintedBody(deck.bodies[i]).shape, paintedBody(deck.bodies[j]).shape};
+      if (shape[0].boundingBox().meets(shape[1].boundingBox()) && mostFilled(mesh, shape) > 1.0 + touching)
+        throw std::runtime_error("bodies/" + deck.bodies[j].name + "/cut: the rigid body " + deck.bodies[i].name +
+                                 " cannot be cut, its outline stays whole; expected: false, or a shape for " +
+                                 deck.bodies[i].name + " that leaves room (annulus, polygon)");
+    }
+}
+
 } // namespace
 
 // What one rank alone meets (bodies that overlap in its cells) all ranks throw.
@@ -276,6 +296,7 @@ void setUp(Run &run)
   {
     Mesh const mesh = makeLocalMesh(run);
     run.scene = makeScene(run.deck, mesh, *run.exchange);
+    refuseCutRigidBodies(run.deck, mesh);
     part = "bodies: ";
     if (fresh)
       run.state = makeInitialState(run.deck, run.whole, run.scene);

@@ -307,6 +307,7 @@ ExitStatus loop(Run &run, RunOutput &output)
     output.write(run.scene, run.state, report, run.ledger, 0.0, false);
   double const cells = static_cast<double>(run.whole.mesh.cell.size());
   watchRigidBodies(run);
+  watchWalls(run);
   while (!finished(run))
   {
     shortenLastStep(run);
@@ -317,6 +318,7 @@ ExitStatus loop(Run &run, RunOutput &output)
     reportConvergence(run, report);
     reportRange(run, report, out_of_range);
     reportRigidOverlap(run);
+    reportPassedWalls(run);
     run.ledger.cell_steps += cells;
     long long pairs = countOwnedPairs(*run.exchange, run.scene.mesh, run.state.pairs);
     run.exchange->sum(&pairs, 1);

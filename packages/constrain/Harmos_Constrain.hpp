@@ -93,9 +93,10 @@ struct ConstraintReport
 /// |p_t| <= mu p, that stops the sliding or, at its bound, opposes it. The same p acts on both sides: momentum is
 /// exact.
 ///
-/// With restitution e a sliding row that is about to touch, gap/dt + G v* < 0, and closes, G v^{n-1/2} < 0, obeys
-/// Newton's law of impact instead: G v >= -e G v^{n-1/2}, so that its impulse takes p (1 - e)/2 |G v^{n-1/2}| of
-/// energy: none for e = 1. Bodies in lasting contact, G v^{n-1/2} = 0, feel no difference.
+/// With restitution e a sliding row that is about to touch, gap/dt + G v* < 0, and closes, s = G v^{n-1/2} < 0, obeys
+/// Newton's law of impact instead: G v >= -e s, so that its impulse takes p (1 - e)/2 |s| of energy: none for e = 1.
+/// One that opens, s >= 0, and would close within the step comes as close as that leaves it with the same:
+/// G v >= -e min(s, gap/dt) - (1 - e) gap/dt. Bodies in lasting contact, s = 0 without a gap, feel no difference.
 ///
 /// \param dof_mass   num_dof_nodes [kg/m]
 /// \param velocity_n v^{n-1/2}, num_dof_nodes [m/s]: for the work of the impulses

@@ -148,7 +148,10 @@ KOKKOS_INLINE_FUNCTION double approach(ContactRow const &row, double relative, M
   if (row.restitution == 0.0 || closing >= 0.0)
     return closing;
   double const start = dot(row.normal, relativeVelocity(row, before.velocity, before.bodies));
-  return start < 0.0 ? relative + row.restitution * start : closing;
+  if (start < 0.0)
+    return relative + row.restitution * start;
+  double const gap_rate = row.opening() / dt;
+  return relative + row.restitution * Math::min(start, gap_rate) + (1.0 - row.restitution) * gap_rate;
 }
 
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.

@@ -65,7 +65,8 @@ MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem con
 {
   ContactOperator const contact(system, rows, exchange, work);
   View<double *[2]> const impulse = work.zeros<double *[2]>("Harmos::constrain::impulse", system.num_rows);
-  View<double *[2]> const relative = work.unset<double *[2]>("Harmos::constrain::relative", system.num_rows);
+  View<double *[2]> const residual = work.unset<double *[2]>("Harmos::constrain::residual", system.num_rows);
+  View<double *> const reach = work.zeros<double *>("Harmos::constrain::reach", system.num_rows);
   RowForce const force{
       before, system, rows.row, options.impedance, options.method == ConstraintMethod::Nitsche, options.penalty, dt};
   View<int *> const own = system.own;
@@ -74,10 +75,14 @@ MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem con
         Vector2 const p = force(own(i));
         impulse(own(i), 0) = p[0];
         impulse(own(i), 1) = p[1];
+        reach(own(i)) = system.friction(own(i)) * p[0];
       });
-  contact.product(impulse, relative);
+  contact.residual(impulse, residual);
   MultiplierSolution solution{impulse, contact.change(), contact.bodyChange()};
   solution.iterations = 1;
+  double const violation = contact.violation(impulse, residual, reach);
+  if (violation > 0.0)
+    solution.residual = violation / Math::max(contact.largestPredicted(dt), 1e-6 * options.speed_scale);
   return solution;
 }
 

@@ -26,7 +26,8 @@ struct StateBefore
 /// that the softer side decides; a rigid side has no part. Either is stable only while dt L beta Z G M^-1 G^T stays
 /// below about two: nothing here limits the step.
 ///
-/// \return `iterations` 1; `residual` is 0 and `converged` true: there is no equation to miss.
+/// \return `iterations` 1; `residual` as of the multipliers (Harmos_MultiplierSolver.hpp), by what the rows are missed;
+///         `converged` is true, for nothing was asked.
 /// Nitsche, Abh. Math. Sem. Univ. Hamburg 36 (1971) 9-15; weights: Annavarapu, Hautefeuille & Dolbow, Comput. Methods
 /// Appl. Mech. Engng 225-228 (2012) 44-54.
 MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem const &system, ContactRows const &rows,

@@ -125,6 +125,7 @@ void convertBlock(DeckChecker const &check, ParameterList const &list, std::stri
   check.require(!part || (fitted && !deck.mesh_file.empty()), keyPath(path, "shape"),
                 "a mesh part needs kinematics lagrangian and mesh/file");
   check.require(!part || !list.isParameter("cells"), keyPath(path, "cells"), "a mesh part has its cells in the file");
+  check.require(!part || !body.cut, keyPath(path, "cut"), "kinematics lagrangian cannot cut blocks");
   if (!fitted || part)
     return;
   std::vector<Vector2> const corners = outlinePoints(body.shape);
@@ -153,6 +154,9 @@ void assignField(DeckChecker const &check, ParameterList const &list, std::strin
     return;
   }
   std::string const where = keyPath(path, "join");
+  check.require(deck.kinematics != Kinematics::Lagrangian, where,
+                "kinematics lagrangian does not weld the nodes of two blocks; expected: an interaction bonded, or one "
+                "mesh part for both");
   std::string const name = list.get<std::string>("join");
   check.require(!deck.bodies.empty(), where, "the first body has none before it to join");
   BodySpec const &other = deck.bodies[requireIndex(check, deck.bodies, name, where, "earlier body")];

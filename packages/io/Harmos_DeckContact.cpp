@@ -35,6 +35,11 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
                                 : placement == "vital vertices" ? Placement::VitalVertices
                                 : placement == "mortar"         ? Placement::Mortar
                                                                 : Placement::Midpoint;
+    check.require(
+        deck.constraint.placement != Placement::GaussPoints || deck.kinematics != Kinematics::Lagrangian,
+        "numerics/constraint/placement",
+        "\"gauss points\" lie on interfaces in cells, which kinematics lagrangian has not; expected: midpoint, "
+        "segment ends, vital vertices or mortar");
   }
   if (is_explicit)
     deck.constraint.penalty = list.get<double>("penalty");
@@ -130,6 +135,15 @@ void convertInteractions(DeckChecker const &check, ParameterList const &list, De
     check.require(named[pair].empty(), path, "the pair stands in interactions/" + named[pair] + " already");
     named[pair] = list.name(i);
     PairInteraction const law = read(item, "type", keyPath(path, "type"));
+    auto const isDriven = [&](int f)
+    {
+      return std::any_of(deck.bodies.begin(), deck.bodies.end(),
+                         [&](BodySpec const &body)
+                         { return body.field == f && deck.laws[body.law].rigid && body.motion != RigidMotion::Free; });
+    };
+    check.require(!isDriven(field[0]) || !isDriven(field[1]), path,
+                  "both bodies are rigid and move as prescribed: nothing acts between them; expected: another pair, or "
+                  "motion: free");
     deck.interaction[field[0] * n + field[1]] = law;
     deck.interaction[field[1] * n + field[0]] = law;
   }

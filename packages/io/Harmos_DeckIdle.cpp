@@ -14,17 +14,30 @@ namespace
 using Teuchos::ParameterEntry;
 using Teuchos::ParameterList;
 
-/// Keys and folders of keys of `numerics` that mean nothing to this deck's kinematics.
+bool hasContactWall(Deck const &deck)
+{
+  return std::any_of(std::begin(deck.boundary), std::end(deck.boundary),
+                     [](Boundary const &side) { return side.kind == BoundaryKind::ContactWall; });
+}
+
+/// Keys and folders of keys that mean nothing to this deck's kinematics and bodies.
 std::vector<std::string> idlePaths(Deck const &deck)
 {
   bool const lagrangian = deck.kinematics == Kinematics::Lagrangian;
   std::vector<std::string> paths;
   if (lagrangian)
-    paths = {"numerics/reconstruction", "numerics/remap"};
+    paths = {"numerics/reconstruction", "numerics/remap", "numerics/constraint/exposed_face"};
   else
     paths = {"numerics/subzonal_pressure"};
   if (deck.kinematics == Kinematics::Single || deck.prescribed.kind != FieldKind::None)
     paths.push_back("numerics/remap/part_overlaps"); // all materials move alike
+  bool const one_body = deck.fields.size() < 2;
+  if (!hasContactWall(deck) && (deck.kinematics == Kinematics::Single || one_body))
+    for (char const *key : {"method", "penalty", "placement", "solver", "warm_start", "tolerance", "max_iterations",
+                            "exposed_face"}) // nothing touches
+      paths.push_back(std::string("numerics/constraint/") + key);
+  if (one_body)
+    paths.push_back("interactions"); // of bodies; walls have their own friction
   if (deck.prescribed.kind != FieldKind::None)
     paths.insert(paths.end(),
                  {"numerics/linear_viscosity", "numerics/quadratic_viscosity", "numerics/hourglass_viscosity",

@@ -166,6 +166,12 @@ KOKKOS_INLINE_FUNCTION double straightMisfit(ReconstructionField const &field, C
   return Detail::lineMisfit(problem, normal).value;
 }
 
+/// Whether a body's matter has flowed in a cell.
+KOKKOS_INLINE_FUNCTION bool hasFlowed(ReconstructionField const &field, CellComponents const &components, int body)
+{
+  return hasFlowed(field.record(field.pairs.offset(components.cell) + body, PlasticStrain));
+}
+
 /// The corner of a body in the polygon that it shares with void, where two lines are exact and one is not: an error of
 /// at most 1e-6 of that of the straight line. Elsewhere, as at curved surfaces, the error of what is returned is above.
 ///
@@ -176,30 +182,45 @@ KOKKOS_INLINE_FUNCTION double straightMisfit(ReconstructionField const &field, C
 /// ended nowhere, most of them in such matter, half of them in fragments.)
 ///
 /// \param normal Of the straight line; leaves the body.
+/// \param thorough Look also where the neighbours hardly miss the straight line, and search to the end.
+/// \param flowed Whether the body's matter has flowed in the cell.
 KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
                                                   int body, Region const &polygon, Plane2 const *rim,
-                                                  Vector2 const &normal)
+                                                  Vector2 const &normal, bool flowed, bool thorough)
 {
-  constexpr double misfit_weight = 0.1, least_miss = 1e-9, poor_misfit = 1e-2, near_exact = 1e-6, hopeful = 1e-3;
+  double const hopeful = thorough ? 1e300 : 1e-3;
+  constexpr double misfit_weight = 0.1, least_miss = 1e-9, poor_misfit = 1e-2, near_exact = 1e-6, near_tip = 1e-4;
   constexpr double quarter = 0.7853981633974483; // of pi
-  constexpr int starts = 5, most_searches = 3;
+  constexpr int starts = 7, most_searches = 3;
+  constexpr double centroid_first = 1e-3;
   double const volume = components.volume[body], open = components.volume[components.count - 1];
   double const smaller = Math::min(volume, open);
   Division const straight = divide(polygon, normal, volume, open, components.weight);
   Vector2 const miss = components.firstMiss(straight.inside, body);
   if (!(norm(miss) > least_miss * smaller) || dot(miss, normal) > 0.0 ||
-      !(straightMisfit(field, components, body, polygon, normal) > poor_misfit))
+      (!thorough && !(straightMisfit(field, components, body, polygon, normal) > poor_misfit)))
     return {};
-  CornerProblem const problem(field, components, body, polygon, rim, misfit_weight);
+  CornerProblem problem(field, components, body, polygon, rim, misfit_weight);
   if (!problem.around.isTold())
     return {};
   CornerCell one_line;
   problem.measure(straight.inside, &straight.line, 1, one_line);
-  double const exact = near_exact * one_line.error, angle = Math::atan2(normal[1], normal[0]);
-  double const aside = 0.2 * smaller / open;
-  double const x[starts][CornerCell::unknowns] = {{angle - 1.0 * quarter, angle + 1.0 * quarter, 0.5},
+  double const exact = (thorough && volume < film_volume ? near_tip : near_exact) * one_line.error;
+  double const angle = Math::atan2(normal[1], normal[0]);
+  // Where the first line goes through the body's middle, what it leaves void.
+  auto const openBeyond = [&](double of_angle)
+  {
+    Vector2 const n{Math::cos(of_angle), Math::sin(of_angle)};
+    Region beyond;
+    clip(polygon, Plane2{-n, -dot(n, components.centroid[body])}, beyond);
+    return beyond.empty() ? 0.0 : Math::min(1.0, components.volumeOfRegion(beyond) / open);
+  };
+  double const aside = 0.2 * smaller / open, low = angle - quarter, high = angle + quarter;
+  double const x[starts][CornerCell::unknowns] = {{low, high, 0.5},
                                                   {angle - 1.6 * quarter, angle + 1.6 * quarter, 0.5},
                                                   {angle - 0.4 * quarter, angle + 0.4 * quarter, 0.5},
+                                                  {low, high, openBeyond(low)},
+                                                  {high, low, openBeyond(high)},
                                                   {angle, angle + 2.0 * quarter, 1.0 - aside},
                                                   {angle, angle - 2.0 * quarter, 1.0 - aside}};
   // A plate thinner than a cell has two parallel faces: the straight line's part, shifted to the centroid.
@@ -207,9 +228,8 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
   CornerCell cell = problem.at(strip);
   if (cell.error <= hopeful * one_line.error)
     cell = bestCornerCell(problem, cell, hopeful * one_line.error);
-  double const strain = field.record(field.pairs.offset(components.cell) + body, PlasticStrain);
   bool const fragment = rim == nullptr && !problem.around.goesOn(volume);
-  if ((hasFlowed(strain) || fragment) && !(cell.error <= exact))
+  if ((flowed || fragment) && !(cell.error <= exact))
     return {};
   CornerCell start[starts];
   for (int i = 0; i < starts && !(cell.error <= exact); ++i)
@@ -223,8 +243,28 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
     start[best].error = 1e300;
   }
   if (!(cell.error <= exact))
+  {
     cell.error = 1e300;
+    return cell;
+  }
+  // Where bent edges leave something, the neighbours have their say after the body's centroid.
+  double const found = cell.error;
+  problem.scale *= centroid_first;
+  cell = bestCornerCell(problem, problem.at(cell.x), 1e300);
+  cell.error = found;
   return cell;
+}
+
+/// Whether both lines of a corner cut tips off their polygon, none of half a cell's length. Void below film_volume that
+/// lies all along a face of the cell is what a bent edge leaves, and no corner.
+KOKKOS_INLINE_FUNCTION bool cutsTips(CellComponents const &components, Region const &polygon, CornerCell const &cell,
+                                     double volume, double void_volume)
+{
+  constexpr double longest = 0.5; // of the cell's side
+  double const rest = void_volume - cell.open;
+  Division const one = divide(polygon, cell.normal[0], volume + rest, cell.open, components.weight);
+  Division const two = divide(one.inside, cell.normal[1], volume, rest, components.weight);
+  return norm(one.chord_end - one.chord_begin) < longest && norm(two.chord_end - two.chord_begin) < longest;
 }
 
 /// Bodies and void, none a sliver, that the given plan does not leave as they are: where one body ends in a convex
@@ -237,8 +277,9 @@ KOKKOS_INLINE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, 
   int const bodies = components.count - 1;
   if (bodies > 2 || components.material[bodies] != void_material || given.error <= removal_tie)
     return given;
+  bool const thin = bodies == 1 && components.volume[1] < slivers.of_void;
   for (int k = 0; k < components.count; ++k)
-    if (components.volume[k] < slivers.of(components, k))
+    if (components.volume[k] < (thin ? slivers.of_body : slivers.of(components, k)))
       return given;
   RemovalPlan plan = given;
   plan.corner = true;
@@ -273,8 +314,11 @@ KOKKOS_INLINE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, 
       line = division.line;
       normal = same ? lastCut(1) : cut(1u << body, 1u << bodies);
     }
-    CornerCell const cell = exactCornerCell(field, components, body, polygon, bodies == 2 ? &line : nullptr, normal);
+    CornerCell const cell = exactCornerCell(field, components, body, polygon, bodies == 2 ? &line : nullptr, normal,
+                                            hasFlowed(field, components, body), false);
     if (cell.error == 1e300)
+      continue;
+    if (thin && !cutsTips(components, polygon, cell, components.volume[0], components.volume[1]))
       continue;
     plan.set(bodies - 1, body, cell.normal[0]);
     plan.set(bodies, bodies, cell.normal[1]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Reconstruct.hpp>
 
+#include <Harmos_ApartPlan.hpp>
 #include <Harmos_BodyFirstPlan.hpp>
 #include <Harmos_CornerCell.hpp>
 #include <Harmos_PartedPlan.hpp>
@@ -58,6 +59,9 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
   RemovalPlan const corner = cornerPlan(field, components, slivers, sequence);
   if (corner.corner)
     return corner;
+  RemovalPlan const apart = apartPlan(field, components, slivers, sequence);
+  if (apart.apart)
+    return apart;
   RemovalPlan const body_first = bodyFirstPlan(field, components, slivers, sequence);
   if (body_first.component[0] != sequence.component[0])
     return body_first;
@@ -132,6 +136,13 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
                 : part,
             k);
     }
+    forgetCuts();
+    return status;
+  }
+  if (plan.apart)
+  {
+    for (int k = 0; k < num_pairs; ++k)
+      write(regionAlone(components, plan, k), k);
     forgetCuts();
     return status;
   }

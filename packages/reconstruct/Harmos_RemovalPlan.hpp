@@ -17,16 +17,20 @@ constexpr int max_exhaustive_components = 5; // more are cut off greedily
 /// normal[2] leave components 0 and 1 in their parts. Or the last body that is left has a corner: of the polygon that
 /// it shares with void the last two normals, which leave the body, cut off void_part and then the rest of the void. Or
 /// void is in two places: void_part of it where the plan has it, the rest between the last two bodies, along their
-/// line.
+/// line. Or the bodies are apart: normal[2 k], which leaves body k, cuts open[k] off the cell, normal[2 k + 1] the rest
+/// of what body k does not fill.
 struct RemovalPlan
 {
+  static constexpr int most_apart = 3; // bodies
+
   int count = 0;
   int component[max_components];
   Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
   double error = 0.0;             // the measure that orders are compared by
   int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
-  bool parted = false, corner = false, filmed = false;
-  double void_part = 0.0; // of the cell
+  bool parted = false, corner = false, filmed = false, apart = false;
+  double void_part = 0.0;       // of the cell
+  double open[most_apart] = {}; // of the cell
 
   KOKKOS_INLINE_FUNCTION void set(int i, int which, Vector2 const &its_normal)
   {

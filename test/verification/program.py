@@ -140,7 +140,7 @@ def test_long_cells_between_bodies_are_a_warning():
 
 def test_keys_without_use_for_the_kinematics_are_a_warning():
     """One deck serves the three kinematics: such keys are no error, and not passed over in silence."""
-    for given, named in (({}, None), ({"numerics/remap/order": 1}, "numerics/remap/order: without effect in this run (these kinematics)")):
+    for given, named in (({}, None), ({"numerics/remap/order": 1}, "numerics/remap/order: without effect in this run (these kinematics and bodies)")):
         r = harmos(BLOCKS, {**SHORT, **given})
         assert r.summary["warnings"] == ([named] if named else []), r.summary["warnings"]
         assert not named or named in r.text, r.text

@@ -39,20 +39,22 @@ def test_any_number_of_ranks_gives_the_same_rebound():
 
 def test_two_bars_rebound_without_a_loss_at_the_contact():
     # Their surfaces bounce many times while the bars press on each other; nothing is lost there, and linear viscosity alone would take it elsewhere.
-    found = {}
-    for e in (0.0, 1.0):
-        r = harmos("two_bars/deck.yaml", {"interactions": f"{{default: sliding, restitution: {e}}}", "numerics/linear_viscosity": 0.0, "numerics/quadratic_viscosity": 0.0, "numerics/courant": 0.9,
-                                          "bodies/left/center": "[-0.49375, 0.0]", "bodies/right/center": "[0.50625, 0.0]", "output/fields": "{at_end: false}"})
-        found[e] = (r.last("contact_loss") / r.first("kinetic_energy"), r.last("right.momentum_x") / (r.last("right.mass") * 5.0))
-        print(f"  e = {e}: contact takes {found[e][0]:.2e} of the energy, exit velocity {found[e][1]:.4f}")
-        check("energy error", r.summary["energy_error"], 1e-10)
-        check("momentum, over that of one bar", max(abs(p) for p in r["momentum_x"]) / (5.0 * r.last("right.mass")), 1e-12)
-        clean(r)
-    # Not to round-off: a surface that starts to close again within a step meets the other at the end of it.
-    check("e = 1: taken by contact", abs(found[1.0][0]), 1e-6)
-    check("e = 1: exit velocity, short of V/2", 1.0 - found[1.0][1], 0.01)
-    assert found[0.0][0] > 5e-3
-    assert found[1.0][1] > found[0.0][1]
+    # A surface that opens and starts to close again within a step met the other at the end of it: 1e-4 to 1.6e-3 were lost but mid-cell.
+    for place, courant in (0.5, 0.9), (0.0, 0.5), (0.12, 0.9):  # of the interface in its cell
+        found = {}
+        for e in (0.0, 1.0):
+            at = 0.0125 * place
+            r = harmos("two_bars/deck.yaml", {"interactions": f"{{default: sliding, restitution: {e}}}", "numerics/linear_viscosity": 0.0, "numerics/quadratic_viscosity": 0.0,
+                                              "numerics/courant": courant, "bodies/left/center": f"[{at - 0.5!r}, 0.0]", "bodies/right/center": f"[{at + 0.5!r}, 0.0]",
+                                              "output/fields": "{at_end: false}"})
+            found[e] = (r.last("contact_loss") / r.first("kinetic_energy"), r.last("right.momentum_x") / (r.last("right.mass") * 5.0))
+            print(f"  interface at {place} of a cell, e = {e}: contact takes {found[e][0]:.2e} of the energy, exit velocity {found[e][1]:.4f}")
+            check("energy error", r.summary["energy_error"], 1e-10)
+            check("momentum, over that of one bar", max(abs(p) for p in r["momentum_x"]) / (5.0 * r.last("right.mass")), 1e-12)
+            clean(r)
+        check("e = 1: taken by contact", abs(found[1.0][0]), 1e-12)
+        check("e = 1: exit velocity, short of V/2", 1.0 - found[1.0][1], 0.02)
+        assert found[0.0][0] > 5e-3
 
 
 run(globals())

@@ -78,7 +78,48 @@ void expectExactCorners(Geometry geometry, bool with_plane)
   EXPECT_GE(exact, 0.98 * looked_at); // a search may end elsewhere
 }
 
+/// Two blocks, a film of void between them, that both end in a cell, on the same side or on opposite ones.
+void expectExactPassing(Geometry geometry)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int looked_at = 0, exact = 0;
+  for (int i = 0; i < 400; ++i)
+  {
+    bool const ring = geometry == Geometry::Axisymmetric;
+    double const left = ring && i % 2 == 0 ? 0.0 : 10.0;
+    Mesh const mesh = ring ? ringMesh(7, left, 0.1, i) : makeMesh(7, 7, 1.0 / 7.0, i % 2 == 0 ? 0.0 : 0.1, i);
+    Vector2 const low{ring ? left : 0.0, 0.0};
+    auto const inCell = [&]() { return low + Vector2{(3.0 + unit(random)) / 7.0, (3.0 + unit(random)) / 7.0}; };
+    double const across = 360.0 * unit(random), gap = std::pow(10.0, -3.0 + 2.0 * unit(random)) / 7.0;
+    Vector2 const face = inCell(), normal = halfPlane(across, face).normal;
+    std::vector<Body> const all{
+        {halfPlane(across, face), halfPlane(across + 90.0, inCell())},
+        {halfPlane(across + 180.0, face + gap * normal), halfPlane(across + (i % 4 < 2 ? 90.0 : -90.0), inCell())}};
+    Scene const scene = paint(mesh, bodies(all, geometry));
+    double body = 0.0, open = 0.0;
+    leastParts(scene, body, open);
+    if (body < 1e-3)
+      continue; // tips that are nearly lost in a cell
+    ++looked_at;
+    exact += misplaced(scene, all) < 1e-7 ? 1 : 0;
+  }
+  std::printf("%d of %d pairs exact\n", exact, looked_at);
+  EXPECT_GT(looked_at, 100);
+  EXPECT_GE(exact, 0.95 * looked_at);
+}
+
 } // namespace
+
+TEST(ReconstructCorners, cornersThatPassEachOther_areExact)
+{
+  expectExactPassing(Geometry::Planar);
+}
+
+TEST(ReconstructCorners, cornersThatPassEachOtherAboutAnAxis_areExact)
+{
+  expectExactPassing(Geometry::Axisymmetric);
+}
 
 TEST(ReconstructCorners, cornerInVoid_isExact)
 {

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_APART_PLAN_HPP
+#define HARMOS_APART_PLAN_HPP
+
+#include <Harmos_CornerCell.hpp>
+
+namespace Harmos
+{
+
+/// One body of a cell, all else as void.
+KOKKOS_INLINE_FUNCTION CellComponents alone(CellComponents const &components, int body)
+{
+  CellComponents c = components;
+  c.count = 2;
+  c.material[0] = components.material[body];
+  c.material[1] = void_material;
+  c.volume[0] = components.volume[body];
+  c.volume[1] = 1.0 - c.volume[0];
+  c.centroid[0] = components.centroid[body];
+  Moments<1> const m = c.momentsOf(c.polygon);
+  Vector2 const all = Vector2{m.first(0), m.first(1)} + m.volume() * c.polygon[0];
+  c.centroid[1] = (1.0 / c.volume[1]) * (all - c.volume[0] * c.centroid[0]);
+  return c;
+}
+
+/// The region of a body that a plan has apart from the others.
+KOKKOS_INLINE_FUNCTION Region regionAlone(CellComponents const &components, RemovalPlan const &plan, int body)
+{
+  double const volume = components.volume[body], beyond = 1.0 - volume - plan.open[body];
+  Division const one =
+      divide(components.polygon, plan.normal[2 * body], volume + beyond, plan.open[body], components.weight);
+  if (!(beyond > least_void))
+    return one.inside;
+  return divide(one.inside, plan.normal[2 * body + 1], volume, beyond, components.weight).inside;
+}
+
+/// Draw a body of a cell alone: by one straight line, or two that meet in a corner, where these leave its centroid.
+///
+/// Tips below film_volume, whose centroids are less sure, may miss it by 0.02 of the cell; slivers are drawn by one
+/// line that least squares place. \return Whether one did.
+KOKKOS_INLINE_FUNCTION bool drawAlone(ReconstructionField const &field, CellComponents const &components, int body,
+                                      SliverBounds const &slivers, RemovalPlan &plan, Region &region)
+{
+  constexpr double exact = 1e-4, tip_miss = 0.02, least_miss = 1e-8; // of the volume; of the cell
+  CellComponents const c = alone(components, body);
+  bool const body_is_smaller = c.volume[0] <= c.volume[1];
+  int const smaller = body_is_smaller ? 0 : 1;
+  double const volume = c.volume[smaller];
+  plan.open[body] = c.volume[1];
+  plan.normal[2 * body + 1] = {0.0, 0.0};
+  if (components.volume[body] < slivers.of(components, body))
+  {
+    SliverBounds bounds = slivers;
+    bounds.fragments = components.holds(slivers.fragments, body) ? 1u : 0u;
+    CutNormal const cut = cutNormal(field, c, ReconstructionMethod::MomentOfFluid, bounds, c.polygon, 1u, 2u);
+    plan.unfinished += cut.converged ? 0 : 1;
+    plan.normal[2 * body] = cut.normal;
+    region = regionAlone(components, plan, body);
+    return true;
+  }
+  MomentOfFluidLine const line = momentOfFluidLine(c.polygon, volume, c.centroid[smaller], c.weight);
+  plan.unfinished += line.converged ? 0 : 1;
+  plan.normal[2 * body] = body_is_smaller ? line.normal : -line.normal;
+  double error = volume * volume * line.squared_error;
+  if (error > removal_tie)
+  {
+    CornerCell const corner = exactCornerCell(field, c, 0, c.polygon, nullptr, plan.normal[2 * body],
+                                              hasFlowed(field, components, body), true);
+    if (corner.error < 1e300)
+    {
+      for (int l = 0; l < 2; ++l)
+        plan.normal[2 * body + l] = corner.normal[l];
+      plan.open[body] = corner.open;
+      error = corner.residual[0] * corner.residual[0] + corner.residual[1] * corner.residual[1];
+    }
+  }
+  plan.error += error;
+  region = regionAlone(components, plan, body);
+  double const miss = Math::max((components.volume[body] < film_volume ? tip_miss : exact) * volume, least_miss);
+  return error <= miss * miss;
+}
+
+/// Bodies and void that the given plan does not leave as they are: where each of them, drawn as if it were alone in the
+/// cell, stays as it is, and none reaches into another, they are apart, and void is what is left.
+///
+/// Corners of two bodies that pass each other at a distance share cells with void both between them and beyond. All
+/// other plans have bodies meet somewhere where void is not all between them; so they touched, and felt each other
+/// through a tenth of a cell of void. Matter that has flowed has no straight edges: its cells are left to the other
+/// plans.
+KOKKOS_INLINE_FUNCTION RemovalPlan apartPlan(ReconstructionField const &field, CellComponents const &components,
+                                             SliverBounds const &slivers, RemovalPlan const &given)
+{
+  constexpr double much_better = 0.1;     // of the given plan's error
+  constexpr double least_overlap = 1e-13; // of the cell
+  int const bodies = components.count - 1;
+  if (bodies < 2 || bodies > RemovalPlan::most_apart || components.material[bodies] != void_material ||
+      given.error <= removal_tie)
+    return given;
+  for (int k = 0; k < bodies; ++k)
+    if (hasFlowed(field, components, k))
+      return given;
+  RemovalPlan plan = given;
+  plan.apart = true;
+  plan.parted = plan.corner = plan.filmed = false;
+  plan.error = 0.0;
+  Region region[RemovalPlan::most_apart];
+  for (int k = 0; k < bodies; ++k)
+  {
+    if (!drawAlone(field, components, k, slivers, plan, region[k]))
+      return given;
+    for (int j = 0; j < k; ++j)
+    {
+      Region common;
+      clipConvex(region[j], region[k], common);
+      if (!common.empty() && area(common) > least_overlap)
+        return given;
+    }
+  }
+  return plan.error <= much_better * given.error ? plan : given;
+}
+
+} // namespace Harmos
+
+#endif
