@@ -37,7 +37,11 @@ KOKKOS_INLINE_FUNCTION Region regionAlone(CellComponents const &components, Remo
 /// Draw a body of a cell alone: by one straight line, or two that meet in a corner, where these leave its centroid.
 ///
 /// Tips below film_volume, whose centroids are less sure, may miss it by 0.02 of the cell; slivers are drawn by one
-/// line that least squares place. \return Whether one did.
+/// line that least squares place.
+///
+/// \param plan   Gets the body's normals and `open`; the squared miss of its first moment is added to `error`.
+/// \param region Out: the body's, in the cell's unit coordinates.
+/// \return Whether the centroid was met.
 KOKKOS_INLINE_FUNCTION bool drawAlone(ReconstructionField const &field, CellComponents const &components, int body,
                                       SliverBounds const &slivers, RemovalPlan &plan, Region &region)
 {
@@ -64,8 +68,7 @@ KOKKOS_INLINE_FUNCTION bool drawAlone(ReconstructionField const &field, CellComp
   double error = volume * volume * line.squared_error;
   if (error > removal_tie)
   {
-    CornerCell const corner = exactCornerCell(field, c, 0, c.polygon, nullptr, plan.normal[2 * body],
-                                              hasFlowed(field, components, body), true);
+    CornerCell const corner = exactCornerCell(field, c, 0, c.polygon, nullptr, plan.normal[2 * body], true);
     if (corner.error < 1e300)
     {
       for (int l = 0; l < 2; ++l)

@@ -182,11 +182,11 @@ KOKKOS_INLINE_FUNCTION bool hasFlowed(ReconstructionField const &field, CellComp
 /// ended nowhere, most of them in such matter, half of them in fragments.)
 ///
 /// \param normal Of the straight line; leaves the body.
-/// \param thorough Look also where the neighbours hardly miss the straight line, and search to the end.
-/// \param flowed Whether the body's matter has flowed in the cell.
+/// \param thorough Of a body drawn alone, whose matter has not flowed: look also where the neighbours hardly miss the
+///                 straight line, search to the end, and take tips at 1e-4 of the straight line's error.
 KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
                                                   int body, Region const &polygon, Plane2 const *rim,
-                                                  Vector2 const &normal, bool flowed, bool thorough)
+                                                  Vector2 const &normal, bool thorough)
 {
   double const hopeful = thorough ? 1e300 : 1e-3;
   constexpr double misfit_weight = 0.1, least_miss = 1e-9, poor_misfit = 1e-2, near_exact = 1e-6, near_tip = 1e-4;
@@ -229,6 +229,7 @@ KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fie
   if (cell.error <= hopeful * one_line.error)
     cell = bestCornerCell(problem, cell, hopeful * one_line.error);
   bool const fragment = rim == nullptr && !problem.around.goesOn(volume);
+  bool const flowed = !thorough && hasFlowed(field, components, body);
   if ((flowed || fragment) && !(cell.error <= exact))
     return {};
   CornerCell start[starts];
@@ -314,8 +315,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, 
       line = division.line;
       normal = same ? lastCut(1) : cut(1u << body, 1u << bodies);
     }
-    CornerCell const cell = exactCornerCell(field, components, body, polygon, bodies == 2 ? &line : nullptr, normal,
-                                            hasFlowed(field, components, body), false);
+    CornerCell const cell =
+        exactCornerCell(field, components, body, polygon, bodies == 2 ? &line : nullptr, normal, false);
     if (cell.error == 1e300)
       continue;
     if (thin && !cutsTips(components, polygon, cell, components.volume[0], components.volume[1]))

@@ -78,6 +78,7 @@ def test_what_cannot_work_together_is_refused():
         "faces at nodes": ({CONSTRAINT: "{method: merged, exposed_face: 0.1}"}, "numerics/constraint/exposed_face"),
         "two exceptions for one pair": ({"interactions": "{one: {between: block, and: upper, type: bonded}, two: {between: upper, and: block, type: sliding}}"}, "interactions/two"),
         "an exception for a body with itself": ({"interactions": "{one: {between: block, and: block, type: bonded}}"}, "interactions/one"),
+        "an exception for two driven bodies": ({"bodies/block/material": "platen", "bodies/block/motion": "prescribed", "interactions": "{one: {between: block, and: upper, type: bonded}}"}, "interactions/one"),
         "an exception for no body": ({"interactions": "{one: {between: block, and: nobody, type: bonded}}"}, "interactions/one/and"),
     }
     for name, (keys, path) in cases.items():
