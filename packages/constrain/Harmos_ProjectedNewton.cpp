@@ -19,11 +19,11 @@ class Newton
 public:
   Newton(DualProblem const &problem, double enough, int max_iterations)
       : problem_(problem), enough_(enough), max_iterations_(max_iterations), n_(problem.size()), system_(problem),
+        rubs_(std::any_of(problem.normal_of.begin(), problem.normal_of.end(), [](int normal) { return normal >= 0; })),
         x_(n_, 0.0), g_(problem.b), free_(n_, 0), safe_step_(1.9 / (1.0 + problem.bodyTrace())), least_shift_(n_, 1e-7)
   {
     constexpr double none = 1.0e300, rigid = 1e-6, deformable_shift = 1e-13;
     LowerTriangle const &a = problem.matrix;
-    rubs_ = std::any_of(problem.normal_of.begin(), problem.normal_of.end(), [](int normal) { return normal >= 0; });
     for (int i = 0; i < n_; ++i)
       for (int e = a.offset[i]; e < a.offset[i + 1]; ++e)
         if (a.column[e] == i && a.value[e] > rigid)
@@ -38,18 +38,23 @@ public:
   {
     if (!start.empty())
       beginAt(start);
-    exchangeActiveSets();
+    exchangeActiveSets(rubs_, iterations_ + (rubs_ ? most_coupled_ : patient_iterations_));
     // Few unknowns are sooner dropped one by one.
-    bool const inside_first = many_change_ || n_ > 100;
+    bool const inside_first = many_change_ || n_ > few_unknowns_;
     if (!reached() && inside_first)
       followInterior();
-    else if (!reached() && rubs_)
-      exchangeActiveSets(true);
     std::vector<ImpulseBounds> before = bounds_;
     for (int round = 0; iterations_ < max_iterations_; ++round)
     {
       if (reached())
         break;
+      if (rubs_ && times_anew_ < most_anew_ && iterations_ >= (times_anew_ + 1) * most_before_anew_)
+      {
+        beginAnew();
+        if (reached())
+          break;
+        before = bounds_;
+      }
       if (round == patient_rounds_ || drags())
       {
         followInterior(inside_first);
@@ -167,11 +172,39 @@ private:
     Vector const before = x_;
     double const least = violation();
     InteriorPoint interior(problem_, system_);
-    iterations_ += interior.solve(enough_, max_iterations_ - iterations_, damped);
+    int const most = rubs_ && n_ <= many_unknowns_ ? most_inside_ : max_iterations_;
+    iterations_ += interior.solve(enough_, std::min(most, max_iterations_ - iterations_), damped);
     begin(interior.impulses());
-    exchangeActiveSets(true, hasty_);
+    exchangeActiveSets(rubs_, max_iterations_, rubs_ ? patient_ : hasty_);
     if (!reached() && !(violation() < least))
       begin(before);
+  }
+
+  /// Sets with friction that came to no end: once more from zero, with other shifts. Rows that hardly tell impulses
+  /// apart give sets that lead to and fro between a few; which of them they meet is chance.
+  void beginAnew()
+  {
+    ++times_anew_;
+    Vector const before = x_;
+    double const least = violation();
+    begin(Vector(n_, 0.0));
+    exchangeActiveSets(true, iterations_ + most_coupled_);
+    if (!reached() && !(violation() < least))
+      begin(before);
+  }
+
+  /// For sets.
+  void setShiftOfSets(double reached)
+  {
+    struct Law
+    {
+      double factor, power; // of the residual over the first one
+    };
+    // Of recorded problems with friction the first law solved most, each next one most of what was left.
+    constexpr Law rubbing[most_anew_ + 1] = {{1e-3, 2.0}, {0.01, 2.0}, {1e-4, 1.5}, {1e-3, 1.0}, {0.01, 1.5}};
+    setShift(0.1, reached);
+    if (rubs_)
+      shift_ = rubbing[times_anew_].factor * std::pow(reached / start_, rubbing[times_anew_].power);
   }
 
   void setShift(double factor, double reached)
@@ -186,17 +219,18 @@ private:
   /// dependent, sets that part two of them throw it far beyond the first one, and the next ones mend that, too. What
   /// was best is kept, and left to other steps where a few sets do not halve it (fewer where many unknowns change
   /// places), some in a row throw it far, or all took long.
-  /// \param coupled Whether a step knows that sliding impulses go with those along n; then it takes an iteration or
-  /// more longer, and only where bodies are rigid are fewer sets needed.
+  /// \param coupled Whether friction's bounds are those of the impulses along n that the step will give, and sliding
+  /// impulses go with them.
+  /// \param until   Iterations of all steps at which it ends.
   /// \param patient Sets in a row that need not halve the residual, where few unknowns change places.
-  void exchangeActiveSets(bool coupled = false, int patient = patient_)
+  void exchangeActiveSets(bool coupled, int until, int patient = patient_)
   {
     constexpr int few = 8, most_thrown = 3;
     constexpr double far = 10.0;
     int patience = patient;
     Vector best = x_, point, slope = g_;
     double least = 1e300;
-    for (int worse = 0, thrown = 0; least > enough_ && iterations_ < max_iterations_ && !drags();)
+    for (int worse = 0, thrown = 0; least > enough_ && iterations_ < std::min(until, max_iterations_);)
     {
       point = x_;
       moveReach();
@@ -211,14 +245,11 @@ private:
       }
       if (least <= enough_ || worse > patience || thrown >= most_thrown)
         break;
-      setShift(0.1, least);
+      setShiftOfSets(least);
       if (point == x_)
         slope = g_;
-      many_change_ = chooseSets(point, slope) > few;
+      many_change_ = chooseSets(point, slope, coupled) > few;
       patience = many_change_ && !coupled ? hasty_ : patient;
-      slides_.assign(n_, 0.0);
-      if (coupled)
-        chooseSliding();
       updateGradient();
       int const before = iterations_;
       newtonStep(coupled);
@@ -236,27 +267,26 @@ private:
 
   /// The sets at a point that may lie beyond bounds, and x with what is not free at its bound.
   /// \return How many unknowns change between free and held.
-  int chooseSets(Vector const &point, Vector const &slope)
+  int chooseSets(Vector const &point, Vector const &slope, bool coupled)
   {
     int changed = 0;
+    slides_.assign(n_, 0.0);
     for (int i = 0; i < n_; ++i)
     {
-      ImpulseBounds const limit = bounds_[i];
       double const to = point[i] - slope[i];
+      bool const follows = coupled && rubs(i);
+      int const along = follows ? problem_.normal_of[i] : i;
+      ImpulseBounds const limit =
+          follows ? ImpulseBounds::ofFriction(problem_.friction[i] * std::max(0.0, point[along] - slope[along]))
+                  : bounds_[i];
       char const free = limit.low < limit.high && limit.inside(to) ? 1 : 0;
       changed += free != free_[i] ? 1 : 0;
       free_[i] = free;
-      setUnknown(i, free ? point[i] : limit.clip(to));
+      if (follows && !free && limit.high > 0.0)
+        slides_[i] = to > 0.0 ? problem_.friction[i] : -problem_.friction[i];
+      setUnknown(i, free ? point[i] : follows ? slides_[i] * point[along] : limit.clip(to));
     }
     return changed;
-  }
-
-  /// Impulses at friction's bounds that the impulses along n take with them.
-  void chooseSliding()
-  {
-    for (int i = 0; i < n_; ++i)
-      if (rubs(i) && !free_[i] && free_[problem_.normal_of[i]] && bounds_[i].low < bounds_[i].high)
-        slides_[i] = x_[i] > 0.0 ? problem_.friction[i] : -problem_.friction[i];
   }
 
   double violation() const
@@ -302,11 +332,14 @@ private:
       shifts_[i] = std::max(shift_, least_shift_[i]);
       residual_[i] = free_[i] ? -g_[i] : 0.0;
     }
-    system_.factor(free_, shifts_);
+    if (sliding)
+      system_.factorSliding(free_, shifts_, slides_);
+    else
+      system_.factor(free_, shifts_);
     double const good = std::max(0.01 * system_.largest(residual_), 0.1 * enough_);
     int const left = std::min(most, max_iterations_ - iterations_);
-    if (sliding && std::any_of(slides_.begin(), slides_.end(), [](double s) { return s != 0.0; }))
-      iterations_ += system_.solveSliding(residual_, slides_, good, left, step_, image_);
+    if (sliding)
+      iterations_ += system_.solveSliding(residual_, good, left, step_, image_);
     else
       iterations_ += system_.solve(residual_, good, left, step_, image_);
     for (int i = 0; i < n_; ++i)
@@ -406,7 +439,7 @@ private:
   int const max_iterations_;
   int const n_;
   ShiftedSystem system_;
-  bool rubs_ = false;                 // some unknown is across n, by friction
+  bool const rubs_;                   // some unknown is across n, by friction
   std::vector<ImpulseBounds> bounds_; // across n with friction they follow the impulses along n
   Vector x_, g_;
   bool current_ = true; // g is the gradient at x
@@ -414,13 +447,16 @@ private:
   std::vector<char> free_;
   Vector slides_;
   static constexpr int undamped_rounds_ = 4, patient_rounds_ = 30;
-  static constexpr int patient_iterations_ = 20;
+  static constexpr int patient_iterations_ = 20, most_coupled_ = 14, most_before_anew_ = 40, most_anew_ = 4;
+  static constexpr int few_unknowns_ = 100, many_unknowns_ = 1000;
+  static constexpr int most_inside_ = 25; // iterations of a path inside the bounds with friction, up to many unknowns
   static constexpr int patient_ = 6, hasty_ = 2; // sets that need not halve the residual
   double const safe_step_;
   Vector least_shift_;
   double start_ = 0.0, shift_ = 0.0;
   int iterations_ = 0;
   bool followed_ = false;
+  int times_anew_ = 0;
   bool many_change_ = false; // unknowns between free and held, when sets were last exchanged
 };
 

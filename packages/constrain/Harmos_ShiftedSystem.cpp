@@ -52,7 +52,50 @@ void ShiftedSystem::factor(std::vector<char> const &free, std::vector<double> co
   constexpr double least = 1e-10; // a diagonal entry of the scaled matrix, whose deformable row sums are at most one
   free_ = free;
   shift_ = shift;
-  factor_.factor(with_bodies_.size() > 0 ? with_bodies_ : problem_.matrix, free_, shift_, least);
+  factor_.factor(factored(), free_, shift_, least);
+}
+
+void ShiftedSystem::factorSliding(std::vector<char> const &free, std::vector<double> const &shift,
+                                  std::vector<double> const &slides)
+{
+  free_ = free;
+  shift_ = shift;
+  slides_ = slides;
+  LowerTriangle const &a = factored();
+  number_.assign(a.size(), 0);
+  int count = 0;
+  for (int i = 0; i < a.size(); ++i)
+    number_[i] = free_[i] ? count++ : 0;
+  of_free_.resize(count);
+  std::vector<MatrixEntry> entry;
+  auto const add = [&](int i, int j, double value)
+  {
+    if (free_[i] && free_[j])
+      entry.push_back({number_[i], number_[j], value});
+    else if (free_[i] && slides_[j] != 0.0)
+      entry.push_back({number_[i], number_[problem_.normal_of[j]], slides_[j] * value});
+  };
+  for (int i = 0; i < a.size(); ++i)
+  {
+    add(i, i, shift_[i]);
+    for (int e = a.offset[i]; e < a.offset[i + 1]; ++e)
+    {
+      add(i, a.column[e], a.value[e]);
+      if (a.column[e] != i)
+        add(a.column[e], i, a.value[e]);
+    }
+  }
+  sliding_factor_.factor(entry, of_free_.size());
+}
+
+void ShiftedSystem::precondition(std::vector<double> &v)
+{
+  for (std::size_t i = 0; i < v.size(); ++i)
+    if (free_[i])
+      of_free_[number_[i]] = v[i];
+  sliding_factor_.solve(of_free_);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    v[i] = free_[i] ? of_free_[number_[i]] : 0.0;
 }
 
 int ShiftedSystem::solve(std::vector<double> &residual, double good, int most, std::vector<double> &step,
@@ -90,20 +133,19 @@ int ShiftedSystem::solve(std::vector<double> &residual, double good, int most, s
   return iterations;
 }
 
-void ShiftedSystem::applySliding(std::vector<double> &v, std::vector<double> const &slides, std::vector<double> &image,
-                                 std::vector<double> &out) const
+void ShiftedSystem::applySliding(std::vector<double> &v, std::vector<double> &image, std::vector<double> &out) const
 {
   for (std::size_t i = 0; i < v.size(); ++i)
-    if (slides[i] != 0.0)
-      v[i] = slides[i] * v[problem_.normal_of[i]];
+    if (slides_[i] != 0.0)
+      v[i] = slides_[i] * v[problem_.normal_of[i]];
   problem_.multiply(v, image);
   out.resize(v.size());
   for (std::size_t i = 0; i < v.size(); ++i)
     out[i] = free_[i] ? image[i] + shift_[i] * v[i] : 0.0;
 }
 
-int ShiftedSystem::solveSliding(std::vector<double> &residual, std::vector<double> const &slides, double good, int most,
-                                std::vector<double> &step, std::vector<double> &image)
+int ShiftedSystem::solveSliding(std::vector<double> &residual, double good, int most, std::vector<double> &step,
+                                std::vector<double> &image)
 {
   std::size_t const n = residual.size();
   step.assign(n, 0.0);
@@ -116,9 +158,9 @@ int ShiftedSystem::solveSliding(std::vector<double> &residual, std::vector<doubl
   {
     direction.push_back(residual);
     its_image.emplace_back();
-    factor_.solve(direction.back());
+    precondition(direction.back());
     ++iterations;
-    applySliding(direction.back(), slides, its_image.back(), product_);
+    applySliding(direction.back(), its_image.back(), product_);
     double const before = std::sqrt(dot(product_, product_));
     column.emplace_back();
     for (std::vector<double> const &other : q)

@@ -58,6 +58,16 @@ def test_every_key_changes_what_is_computed():
     print(f"  {len(seen)} ways, each another run")
 
 
+def test_methods_without_a_solve_tell_by_how_much_they_miss():
+    """The residual is the largest closing velocity that is left over the largest one without impulses."""
+    for method, low, high in (("multipliers", 0.0, 1e-8), ("penalty", 1e-3, 10.0), ("nitsche", 1e-3, 10.0)):
+        r = harmos(DECK, {**START, CONSTRAINT: f"{{method: {method}}}"})
+        most = max(r["residual"])
+        print(f"  {method}: {most:.2e}")
+        assert low <= most <= high, f"{method}: {most}"
+        clean(r)
+
+
 def test_what_cannot_work_together_is_refused():
     cases = {
         "bonds that break, nodal": ({CONSTRAINT: "{method: nodal}", "interactions": "{default: bonded, tensile_strength: 1.0e6}"}, "numerics/constraint/method"),

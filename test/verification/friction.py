@@ -71,6 +71,15 @@ def test_all_solvers_give_the_same_slide():
     clean(first)
 
 
+def test_a_disc_rubs_its_way_through_a_plate_in_few_iterations():
+    # Few multipliers, curved interfaces: where friction's bounds only follow, some of these cycles never end.
+    for friction, cycles in ((0.2, 40), (0.25, 40), (0.5, 40), (1.0, 40)):
+        r = harmos("disc_through_plate/deck.yaml", {"interactions": f"{{default: friction, coefficient: {friction!r}}}", "run/max_cycles": cycles})
+        check(f"iterations with coefficient {friction}", max(r["iterations"]), 50)
+        check("cycles that missed the tolerance", r.summary["unconverged_cycles"], 0)
+        clean(r)
+
+
 def test_a_bond_of_two_bars_holds_below_its_strength_and_breaks_above():
     rho, c, g, speed = 7800.0, 4600.0, 80.0e9, 10.0
     tension = 0.5 * rho * sqrt(c * c + 4.0 * g / (3.0 * rho)) * speed  # bars drawn apart: rho c V/2

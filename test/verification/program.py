@@ -13,6 +13,7 @@ from harness import check, clean, harmos, run
 
 HERE = pathlib.Path(__file__).resolve().parent
 BALL, BLOCKS = HERE / "rigid_ball.yaml", HERE / "two_blocks.yaml"
+ROLLING = HERE / "decks/rolling.yaml"
 SHORT = {"run/max_cycles": 3}
 
 
@@ -144,6 +145,37 @@ def test_keys_without_use_for_the_kinematics_are_a_warning():
         r = harmos(BLOCKS, {**SHORT, **given})
         assert r.summary["warnings"] == ([named] if named else []), r.summary["warnings"]
         assert not named or named in r.text, r.text
+        clean(r)
+
+
+def test_keys_of_contact_without_use_are_a_warning():
+    def named(deck, **keys):
+        r = harmos(deck, {**SHORT, **{path.replace("__", "/"): value for path, value in keys.items()}})
+        paths = [w.split(":")[0] for w in r.summary["warnings"] if "without effect" in w]
+        clean(r)
+        return paths
+
+    alone = HERE / "decks/tension.yaml"
+    assert named(alone, numerics__constraint="{tolerance: 1.0e-6}", interactions="{default: bonded}") == ["interactions/default, numerics/constraint/tolerance"]
+    assert named(alone, numerics__constraint="{tolerance: 1.0e-6}", boundaries__left="{type: contact wall}") == []
+
+
+def test_what_body_fitted_blocks_cannot_do_is_refused():
+    refused(["bodies/upper/join", "weld"], "bodies/upper/join=lower", deck=BLOCKS)
+    refused(["numerics/constraint/placement", "gauss points"], "numerics/constraint/placement=gauss points", deck=BLOCKS)
+
+
+def test_rigid_bodies_keep_their_outline():
+    refused(["bodies/plug/cut", "the rigid body disc cannot be cut"], "bodies/plug={material: hard, shape: disc, center: [-0.4, 0.211], radius: 0.1, motion: free, cut: true}",
+            "interactions={default: sliding}", deck=ROLLING)
+
+
+def test_free_rigid_bodies_that_pass_a_wall_are_a_warning():
+    """Slip walls hold nodes of the mesh, which rigid bodies have none of; a contact wall holds them."""
+    for wall, passed in (("slip wall", True), ("contact wall", False)):
+        r = harmos(ROLLING, {"boundaries/right": f"{{type: {wall}}}", "bodies/disc/center": "[0.79, 0.311]", "bodies/disc/velocity": "[2.0, 0.0]", "run/end_time": 0.1})
+        words = [w for w in r.summary["warnings"] if "goes through the slip wall right" in w]
+        assert len(words) == (1 if passed else 0), r.summary["warnings"]
         clean(r)
 
 

@@ -59,6 +59,11 @@ def sweep(cells, pressure, bound):
             worst = max(worst, error)
             check("momentum ledger", r.summary["momentum_error"], 1e-12)
             check("energy ledger", r.summary["energy_error"], 1e-10)
+            work = abs(r.last("contact_loss"))
+            if pressure:
+                check("work of the contacts as a coefficient of friction", work / (2.0 * pressure), 4.5e-4)
+            else:
+                check("work of the contacts over the energy of motion", work / r.first("kinetic_energy"), 1e-20)
             clean(r)
     check(f"worst momentum error, {cells} cells, pressure {pressure:.1e}", worst, bound)
 
@@ -70,6 +75,19 @@ def test_unloaded_block_keeps_its_momentum():
 
 def test_squeezed_block_keeps_its_momentum():
     sweep(8, SQUEEZE, 1e-12)
+
+
+# As a coefficient of friction that would take as much; the worst placements of the six angles and three offsets at 16 cells.
+def test_work_of_frictionless_contacts_falls_with_the_cells():
+    work = {}
+    for cells in (8, 16):
+        for angle, offset in ((0.0, OFFSETS[0]), (30.0, OFFSETS[1]), (45.0, OFFSETS[2])):
+            r = harmos(DECK, settings(angle, offset, cells, SQUEEZE))
+            work[cells] = max(work.get(cells, 0.0), abs(r.last("contact_loss")) / (2.0 * SQUEEZE))
+            clean(r)
+    print(f"  worst coefficient {work[8]:.1e} at 8 cells, {work[16]:.1e} at 16")
+    check("work at 16 cells over that at 8", work[16] / work[8], 0.5)
+    check("coefficient at 16 cells", work[16], 1e-4)
 
 
 def test_single_velocity_block_sticks():

@@ -84,7 +84,7 @@ TEST(ProjectedNewton, rowsThatShareVelocitiesAtRandom_areNearlyAllSolved)
       missed += found.violation > 1e-8 ? 1 : 0;
     }
   RecordProperty("missed", missed);
-  EXPECT_LE(missed, 20) << "of 200";
+  EXPECT_LE(missed, 4) << "of 200";
 }
 
 // Every unknown twice, and one that nothing depends on: the impulses are not unique, the residual is.
@@ -204,7 +204,9 @@ TEST(ProjectedNewton, warmStart_findsTheSameVelocitiesInFewerIterations)
       EXPECT_TRUE(warm.converged) << warm.residual;
       // The bounds of friction follow the normal forces, which are known to the tolerance.
       int const unchanged = kind == Interaction::Friction ? cold.iterations / 2 : 1;
-      EXPECT_LE(warm.iterations, factor == 1.0 ? unchanged : cold.iterations) << factor;
+      // From zero sets on friction's cone need but four or five; from a wrong start they have to turn back first.
+      int const changed = cold.iterations + (kind == Interaction::Friction ? 2 : 0);
+      EXPECT_LE(warm.iterations, factor == 1.0 ? unchanged : changed) << factor;
       auto const found = scene.sums(scene.half, 0);
       EXPECT_NEAR(found.kinetic, expected.kinetic, 1e-8 * expected.kinetic);
       EXPECT_NEAR(norm(found.momentum - expected.momentum), 0.0, 1e-7 * norm(expected.momentum));
