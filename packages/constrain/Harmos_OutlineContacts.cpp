@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Harmos
 {
@@ -150,6 +151,12 @@ OutlineGap outlineGap(Shape const &a, Shape const &b, OutlinePlace const &place)
   Vector2 const normal = line ? b.normal : -perpendicular(along(b, place.surface));
   Vector2 const on_it = line ? b.centre : corner(b, place.surface);
   return {centre - radius * normal, -normal, dot(normal, centre - on_it) - radius};
+}
+
+double clearance(Shape const &a, Shape const &b, OutlinePlace const &place)
+{
+  bool const in_hole = place.feature == outer_circle && b.kind == Shape::Kind::Annulus && place.surface >= hole_surface;
+  return in_hole ? Math::max(b.inner_radius - a.outer_radius, 0.0) : std::numeric_limits<double>::max();
 }
 
 std::vector<OutlinePlace> outlinePlaces(Shape const &a, Shape const &b, double reach, bool circles)

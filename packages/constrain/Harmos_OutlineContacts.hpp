@@ -53,6 +53,10 @@ struct OutlineGap
 /// - r. [length]
 OutlineGap outlineGap(Shape const &a, Shape const &b, OutlinePlace const &place);
 
+/// How far the feature's centre can leave the middle of what holds it all around: R - r for a circle in a hole, no
+/// limit elsewhere. [length]
+double clearance(Shape const &a, Shape const &b, OutlinePlace const &place);
+
 /// \brief Where features of shape a lie within `reach` of surfaces of shape b: all places at which the two may touch,
 ///        together with those of b on a.
 ///

@@ -45,6 +45,13 @@ Shape ahead(Shape const &shape, RigidBody const &body, double dt)
   return shape.moved(dt * body.velocity, dt * body.angular_velocity);
 }
 
+/// Whether a place turns too far in the step for one row to follow it: on the line of centres of a pin that stands in
+/// the middle of its hole, which has no direction of its own; those fixed around the hole stay.
+bool turnsAway(OutlineGap const &now, OutlineGap const &next)
+{
+  return dot(now.normal, next.normal) < 0.5;
+}
+
 /// Rows of the features of body i on body j.
 void addBodyRows(std::vector<Shape> const &outline, std::vector<RigidBody> const &bodies, int i, int j,
                  PairInteraction const &law, double reach, double dt, std::vector<ContactRow> &rows)
@@ -53,7 +60,9 @@ void addBodyRows(std::vector<Shape> const &outline, std::vector<RigidBody> const
   Shape const a_next = ahead(a, bodies[i], dt), b_next = ahead(b, bodies[j], dt);
   for (OutlinePlace const &place : outlinePlaces(a, b, reach, i < j))
   {
-    OutlineGap const here = outlineGap(a, b, place);
+    OutlineGap const here = outlineGap(a, b, place), next = outlineGap(a_next, b_next, place);
+    if (turnsAway(here, next))
+      continue;
     ContactRow row = blankRow();
     long long const pair = static_cast<long long>(i) * static_cast<long long>(bodies.size()) + j;
     row.key = body_keys + (pair * most_features + place.feature + 1) * most_features + place.surface;
@@ -65,7 +74,9 @@ void addBodyRows(std::vector<Shape> const &outline, std::vector<RigidBody> const
     row.normal = here.normal;
     row.gap = here.gap;
     Vector2 const apart = bodies[j].velocityAt(here.point + here.gap * here.normal) - bodies[i].velocityAt(here.point);
-    row.bend = (outlineGap(a_next, b_next, place).gap - here.gap) - dt * dot(here.normal, apart);
+    // Of a pin as wide as its hole opposite rows would ask for what cannot be: nothing is left for the path to bend.
+    double const bend = (next.gap - here.gap) - dt * dot(here.normal, apart);
+    row.bend = Math::max(bend, -clearance(a, b, place));
     row.friction = law.kind == Interaction::Friction ? law.friction : 0.0;
     row.restitution = law.restitution;
     rows.push_back(row);

@@ -105,6 +105,22 @@ def test_a_disc_swings_in_a_ring_as_the_pendulum_that_rolls():
     clean(r)
 
 
+def test_a_pin_takes_its_ring_along():
+    """Struck in the middle of a hole that it fills, or fills but for 1e-4: both go on with the common velocity."""
+    for radius, velocity in ((0.2, (1.0, 0.0)), (0.2, (0.3, 0.7)), (0.1999, (1.0, 0.0))):
+        r = harmos(DECK, {
+            "gravity": "[0.0, 0.0]", "interactions": "{default: sliding}", "run/end_time": 0.3, "run/max_dt": 0.03,
+            "bodies/ground": "{material: hard, shape: annulus, center: [0.0, 0.0], inner_radius: 0.2, outer_radius: 0.4, motion: free}",
+            "bodies/disc": f"{{material: hard, shape: disc, center: [0.0, 0.0], radius: {radius!r}, motion: free, velocity: [{velocity[0]!r}, {velocity[1]!r}]}}"})
+        ring, pin = r.last("ground.mass"), r.last("disc.mass")
+        for k, axis in enumerate("xy"):
+            common = velocity[k] * pin / (ring + pin)
+            check(f"velocity along {axis}, radius {radius}", max(abs(r.last(f"{name}.momentum_{axis}") / mass - common) for name, mass in (("ground", ring), ("disc", pin))), 1e-6)
+        check("iterations", max(r["iterations"]), 10)
+        check("cycles that missed the tolerance", r.summary["unconverged_cycles"], 0)
+        clean(r)
+
+
 def test_a_box_slides_down_a_slope_without_turning():
     angle, friction = radians(20.0), 0.2
     middle = (0.5 * cos(angle) - 0.1 * sin(angle), 0.011 + 0.5 * sin(angle) + 0.1 * cos(angle))
