@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Block between frictionless rigid platens: momentum along the platens is constant at any angle and offset."""
-import random
 from math import cos, radians, sin
 
 from harness import check, clean, harmos, run

@@ -49,8 +49,8 @@ def test_courant_number_near_one_is_stable_with_slivers_as_in_single():
 
 
 def test_vital_vertices_keep_a_uniform_pressure_at_an_oblique_interface():
-    # Exact: no deviation. One multiplier a segment is too many where cells of two segments alternate with cells of one.
-    for angle, bound in ((0.0, 1e-6), (20.0, 0.1), (35.0, 0.15)):
+    # Exact: no deviation. At 35 degrees the line passes nodes at 2e-4 of a cell: the tips there are merged, and lose their pressure.
+    for angle, bound in ((0.0, 1e-6), (20.0, 1e-6), (35.0, 0.08)):
         check(f"vital vertices, {angle:.0f} degrees: deviation of the tractions", deviation("vital vertices", angle), bound)
 
 
@@ -88,8 +88,8 @@ def test_gases_of_one_pressure_rest_beside_an_oblique_interface():
 # At 35 degrees the line passes nodes at 2e-4 of a cell: the tips there are merged with their neighbours, and lose their pressure.
 def test_stress_over_what_solids_fill_answers_a_uniform_pressure_with_uniform_tractions():
     exact = [(method, angle, 1e-6) for method in ("multipliers", "vital vertices", "mortar") for angle in (20.0, 33.0, 45.0)]
-    everywhere = exact + [("multipliers", 35.0, 0.05), ("vital vertices", 35.0, 0.1)]
-    full = exact + [("multipliers", 35.0, 0.08)]
+    everywhere = exact + [("multipliers", 35.0, 0.005), ("vital vertices", 35.0, 0.1)]
+    full = exact + [("multipliers", 35.0, 0.05)]
     for where, cases in (("filled regions", everywhere), ("full cells", full)):
         for method, angle, bound in cases:
             METHODS["over regions"] = {**METHODS[method], "numerics/cut_cell_stress": where}
@@ -120,9 +120,8 @@ def test_gas_at_rest_on_a_shaken_mesh_stays_at_rest():
         clean(r)
 
 
-def test_mortar_multipliers_halve_the_deviation_of_midpoints():
-    # What is left is not theirs: the forces of a pressure in a cut cell are those of the cell's mean gradient (tstVitalVertices has the exact ones).
-    for angle, bound in ((0.0, 1e-6), (20.0, 0.15), (35.0, 0.25)):
+def test_mortar_multipliers_keep_a_uniform_pressure_at_an_oblique_interface():
+    for angle, bound in ((0.0, 1e-6), (20.0, 1e-6), (35.0, 0.05)):
         check(f"mortar, {angle:.0f} degrees: deviation of the tractions", deviation("mortar", angle), bound)
 
 
