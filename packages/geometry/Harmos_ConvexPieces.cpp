@@ -43,6 +43,20 @@ bool isConvex(std::vector<Vector2> const &points)
   return true;
 }
 
+/// Sine of the turn at b below which a, b and c lie on one line: products are rounded, fused ones otherwise than
+/// others.
+constexpr double round_off = 1e-14;
+
+bool onLine(Vector2 const &a, Vector2 const &b, Vector2 const &c)
+{
+  return Math::fabs(turn(a, b, c)) <= round_off * norm(b - a) * norm(c - b);
+}
+
+bool turnsRight(Vector2 const &a, Vector2 const &b, Vector2 const &c)
+{
+  return turn(a, b, c) < -round_off * norm(b - a) * norm(c - b);
+}
+
 /// Corner k of the remaining polygon can be cut off: it turns left and no other corner lies in its triangle.
 bool isEar(std::vector<Vector2> const &points, std::vector<int> const &rest, int k)
 {
@@ -59,7 +73,7 @@ bool isEar(std::vector<Vector2> const &points, std::vector<int> const &rest, int
     if (i == before || i == k || i == after)
       continue;
     Vector2 const x = points[rest[i]];
-    if (turn(a, b, x) >= 0.0 && turn(b, c, x) >= 0.0 && turn(c, a, x) >= 0.0)
+    if (!turnsRight(a, b, x) && !turnsRight(b, c, x) && !turnsRight(c, a, x))
       return false;
   }
   return true;
@@ -109,7 +123,7 @@ std::vector<std::vector<int>> convexPieces(std::vector<Vector2> const &points)
     int cut = -1;
     for (int k = 0; k < n && cut < 0; ++k)
     {
-      bool const straight = turn(points[rest[(k + n - 1) % n]], points[rest[k]], points[rest[(k + 1) % n]]) == 0.0;
+      bool const straight = onLine(points[rest[(k + n - 1) % n]], points[rest[k]], points[rest[(k + 1) % n]]);
       if (straight || isEar(points, rest, k))
         cut = k;
       if (cut == k && !straight)

@@ -150,6 +150,15 @@ void applyOverride(ParameterList &deck, std::string const &text)
       throw DeckError(prefix + ": " + name + " is no map");
     list = &list->sublist(name);
   }
+  if (value.isSublist("value") && list->isSublist(name))
+  {
+    // Where it stood: bodies are placed, and joined, in the order of the deck.
+    ParameterList &there = list->sublist(name);
+    std::string const called = there.name();
+    there = value.sublist("value");
+    there.setName(called);
+    return;
+  }
   list->remove(name, false);
   if (value.isSublist("value"))
     list->set(name, value.sublist("value"));

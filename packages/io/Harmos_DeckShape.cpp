@@ -55,6 +55,22 @@ double areaAndCentroid(std::vector<Vector2> const &points, Vector2 &centroid)
   return area;
 }
 
+/// Corners that lie on the straight line between their neighbours are none.
+void removeStraightCorners(std::vector<Vector2> &points)
+{
+  constexpr double straight = 1e-12; // sine of the angle
+  std::vector<Vector2> const all = points;
+  std::size_t const n = all.size();
+  points.clear();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    Vector2 const before = all[i] - all[(i + n - 1) % n], after = all[(i + 1) % n] - all[i];
+    bool const goes_on = dot(before, after) > 0.0;
+    if (!goes_on || std::fabs(cross(before, after)) > straight * norm(before) * norm(after))
+      points.push_back(all[i]);
+  }
+}
+
 void convertPolygon(DeckChecker const &check, Teuchos::Array<double> const &numbers, std::string const &path,
                     ShapeSpec &shape)
 {
@@ -63,7 +79,8 @@ void convertPolygon(DeckChecker const &check, Teuchos::Array<double> const &numb
   for (int i = 0; i + 1 < static_cast<int>(numbers.size()); i += 2)
     shape.points.push_back({numbers[i], numbers[i + 1]});
   double const area = areaAndCentroid(shape.points, shape.center);
-  check.require(area != 0.0, path, "the polygon has no area");
+  removeStraightCorners(shape.points);
+  check.require(area != 0.0 && shape.points.size() > 2, path, "the polygon has no area");
   check.require(isSimple(shape.points), path, "edges of the polygon cross or touch; expected: a simple polygon");
   if (area < 0.0)
     std::reverse(shape.points.begin(), shape.points.end());

@@ -217,6 +217,9 @@ def test_mesh_and_bodies_stay_and_other_changes_are_named():
     for key, value in refused.items():
         r = harmos(BALL, {**stop({}, 40), key: value}, directory=other, extra=good, expect=2)
         assert key in r.text and len(r.text.splitlines()) == 1 and not other.exists(), r.text
+    # The ball is rigid: its mass goes on from the checkpoint.
+    r = harmos(BALL, {**stop({}, 40), "materials/hard/density": 7000.0}, directory=other, extra=good, expect=2)
+    assert "materials/hard/density" in r.text and "keep their mass" in r.text and not other.exists(), r.text
     r = harmos(BALL, {**stop({}, 40), "materials/aluminium/density": 2701.0}, directory=other, extra=good)
     assert any("materials/aluminium/density" in text for text in r.summary["warnings"]), r.summary["warnings"]
     r = harmos(BALL, stop({}, 20), directory=other, extra=[*good, "--force"])

@@ -202,3 +202,25 @@ TEST(ConvexPieces, randomStarShapedPolygons_areCutWithoutLoss)
     EXPECT_NEAR(polygonArea(points), sum, 1e-14);
   }
 }
+
+// A notch whose point lies on the diagonals of the square: fused products put it on either side of them.
+TEST(ConvexPieces, cornersOnDiagonals_areCutWithoutLoss)
+{
+  std::vector<Vector2> const square = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {0.0, 0.0}, {-1.0, 1.0}};
+  for (double const scale : {0.1, 0.3, 0.7, 1.0 / 3.0})
+    for (std::size_t first = 0; first < square.size(); ++first)
+    {
+      std::vector<Vector2> points;
+      for (std::size_t i = 0; i < square.size(); ++i)
+        points.push_back(scale * square[(first + i) % square.size()] + Vector2{0.1, -0.7});
+      double sum = 0.0;
+      for (std::vector<int> const &piece : convexPieces(points))
+      {
+        std::vector<Vector2> corners;
+        for (int const i : piece)
+          corners.push_back(points[i]);
+        sum += polygonArea(corners);
+      }
+      EXPECT_NEAR(sum, 3.0 * scale * scale, 1e-14);
+    }
+}

@@ -229,6 +229,22 @@ TEST(Deck, GradedAxis_sumsToItsLength_andEndsExactly)
               1e-13);
 }
 
+// Bodies are placed, and joined, in the order of the deck.
+TEST(Deck, aBodyThatIsSetAnew_keepsItsPlace)
+{
+  Deck const deck = example({"bodies/slider={material: block, shape: disc, center: [0, 0], radius: 0.4, cut: true}"});
+  ASSERT_EQ(deck.bodies.size(), 5u);
+  EXPECT_EQ(deck.bodies[2].name, "slider");
+  EXPECT_EQ(deck.bodies[2].shape.kind, ShapeKind::Disc);
+  EXPECT_EQ(deck.bodies[4].field, deck.bodies[2].field);
+}
+
+TEST(Deck, cornersOnAStraightSide_areNone)
+{
+  Deck const deck = example({"bodies/patch/points=[-0.75, 0.0, -1, 0, -1, 0.25, -1, 0.5, -0.5, 0]"});
+  EXPECT_EQ(deck.bodies[4].shape.points.size(), 3u);
+}
+
 TEST(Deck, Echo_readsBackToTheSameDeck)
 {
   std::vector<std::string> const overrides = {
