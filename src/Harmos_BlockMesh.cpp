@@ -238,19 +238,47 @@ DeckMesh makeBlocks(Deck const &deck)
   return whole;
 }
 
+/// \throw DeckError where bodies that the file or arcs give lie in one another.
+void refuseOverlaps(Deck const &deck, DeckMesh const &whole)
+{
+  constexpr double part = 0.1;
+  std::array<int, 2> const found = overlappingCells(whole.mesh, whole.cell_body, part);
+  if (found[0] < 0)
+    return;
+  auto const nameOf = [&](int cell)
+  {
+    std::size_t const body = static_cast<std::size_t>(whole.cell_body[cell]);
+    return body < deck.bodies.size() ? deck.bodies[body].name : std::string("a contact wall");
+  };
+  auto const &x = whole.mesh.node[whole.mesh.cell[found[1]][0]];
+  throw DeckError("bodies/" + nameOf(found[1]) + ": overlaps " + nameOf(found[0]) + " at (" + std::to_string(x[0]) +
+                  ", " + std::to_string(x[1]) + ")");
+}
+
 } // namespace
 
 DeckMesh makeBlockMesh(Deck const &deck)
 {
   DeckMesh whole = makeBlocks(deck);
   if (deck.mesh_file.empty())
+  {
+    refuseOverlaps(deck, whole);
     return whole;
+  }
   GmshMesh const gmsh = readGmsh(deck.mesh_file);
   PartMesh parts(deck, gmsh);
   for (std::size_t body = 0; body < deck.bodies.size(); ++body)
     if (deck.bodies[body].shape.kind == ShapeKind::MeshPart)
       parts.append(static_cast<int>(body), whole);
-  checkHostMesh(whole.mesh);
+  try
+  {
+    checkHostMesh(whole.mesh);
+  }
+  catch (std::runtime_error const &error)
+  {
+    throw DeckError(deck.mesh_file + ": " + error.what());
+  }
+  refuseOverlaps(deck, whole);
   return whole;
 }
 

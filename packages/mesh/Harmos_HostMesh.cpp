@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -242,6 +243,53 @@ int oppositeFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int 
       return 4 * other + before;
   }
   return -1;
+}
+
+std::array<int, 2> overlappingCells(HostMesh const &mesh, std::vector<int> const &body, double part)
+{
+  int const count = static_cast<int>(mesh.cell.size());
+  auto const cornersOf = [&](int c)
+  {
+    std::array<Corner, 4> x;
+    for (int k = 0; k < 4; ++k)
+      x[k] = mesh.node[mesh.cell[c][k]];
+    return x;
+  };
+  std::vector<Corner> low(count), high(count);
+  std::vector<double> shortest(count);
+  double width = 0.0; // of bins: the widest cell
+  for (int c = 0; c < count; ++c)
+  {
+    std::array<Corner, 4> const x = cornersOf(c);
+    low[c] = high[c] = x[0];
+    shortest[c] = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 4; ++k)
+    {
+      Corner const &next = x[(k + 1) % 4];
+      shortest[c] = std::min(shortest[c], std::hypot(next[0] - x[k][0], next[1] - x[k][1]));
+      for (int d = 0; d < 2; ++d)
+      {
+        low[c][d] = std::min(low[c][d], x[k][d]);
+        high[c][d] = std::max(high[c][d], x[k][d]);
+      }
+    }
+    width = std::max({width, high[c][0] - low[c][0], high[c][1] - low[c][1]});
+  }
+  std::map<std::array<long long, 2>, std::vector<int>> bin;
+  auto const binOf = [&](double x) { return static_cast<long long>(std::floor(x / width)); };
+  for (int c = 0; c < count; ++c)
+    for (long long i = binOf(low[c][0]); i <= binOf(high[c][0]); ++i)
+      for (long long j = binOf(low[c][1]); j <= binOf(high[c][1]); ++j)
+      {
+        std::vector<int> &here = bin[{i, j}];
+        for (int const other : here)
+          if (body[c] != body[other] &&
+              std::max(separation(cornersOf(c), cornersOf(other)), separation(cornersOf(other), cornersOf(c))) <
+                  -part * std::min(shortest[c], shortest[other]))
+            return {other, c};
+        here.push_back(c);
+      }
+  return {-1, -1};
 }
 
 void checkHostMesh(HostMesh const &mesh)

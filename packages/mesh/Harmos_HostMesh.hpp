@@ -36,6 +36,14 @@ int oppositeFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int 
 ///        boundary number on an inner face, arrays of different lengths; or the node that no cell touches.
 void checkHostMesh(HostMesh const &mesh);
 
+/// Two cells of different bodies that lie in each other by more than `part` of the smaller one's shortest side; {-1,
+/// -1} where there are none. Sides that bend are chords in cells: bodies that fit along an arc overlap by their
+/// sagittas.
+///
+/// \param body By cell.
+/// Separating edges of convex polygons: Gottschalk, Lin & Manocha, Proc. SIGGRAPH 1996, 171-180.
+std::array<int, 2> overlappingCells(HostMesh const &mesh, std::vector<int> const &body, double part);
+
 /// Its two parts: arrays, node numbers and corners, without which cellsAroundNodes cannot be made; and a cell's faces.
 void checkCells(HostMesh const &mesh);
 void checkFaces(HostMesh const &mesh, HostRows const &node_cell, int cell);

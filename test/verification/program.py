@@ -165,6 +165,12 @@ def test_what_body_fitted_blocks_cannot_do_is_refused():
     refused(["numerics/constraint/placement", "gauss points"], "numerics/constraint/placement=gauss points", deck=BLOCKS)
 
 
+def test_blocks_that_lie_in_each_other_are_refused():
+    refused(["bodies: block 1 overlaps block 0"], "bodies/upper/center=[0.52, 0.6]", deck=BLOCKS)
+    # Bent sides, which the blocks' corners say nothing of.
+    refused(["bodies/upper", "overlaps lower at"], "bodies/upper/center=[0.52, 0.78]", "bodies/upper/arc_radii=[0.31, 0.0, 0.0, 0.0]", deck=BLOCKS)
+
+
 def test_rigid_bodies_keep_their_outline():
     refused(["bodies/plug/cut", "the rigid body disc cannot be cut"], "bodies/plug={material: hard, shape: disc, center: [-0.4, 0.211], radius: 0.1, motion: free, cut: true}",
             "interactions={default: sliding}", deck=ROLLING)

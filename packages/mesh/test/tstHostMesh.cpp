@@ -227,3 +227,34 @@ TEST(MappedBlocks, overlappingConcaveOrEmptyBlocks_areRefused)
 }
 
 } // namespace
+
+// Two squares of four cells each; the second turned, at a distance along its diagonal.
+TEST(HostMesh, overlappingCells_areThoseThatLieInEachOtherByMoreThanThePart)
+{
+  for (double const depth : {-0.3, 0.04, 0.06, 0.3})
+  {
+    HostMesh mesh;
+    std::vector<int> body;
+    for (int b = 0; b < 2; ++b)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          mesh.node.push_back(b == 0 ? std::array<double, 2>{0.5 * i, 0.5 * j}
+                                     : std::array<double, 2>{1.0 - depth + (i + j) * std::sqrt(0.125),
+                                                             0.25 + (j - i) * std::sqrt(0.125)});
+    for (int b = 0; b < 2; ++b)
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i)
+        {
+          int const first = 9 * b + 3 * j + i;
+          mesh.cell.push_back({first, first + 1, first + 4, first + 3});
+          body.push_back(b);
+        }
+    std::array<int, 2> const found = overlappingCells(mesh, body, 0.1);
+    EXPECT_EQ(found[0] >= 0, depth > 0.05) << depth;
+    if (found[0] >= 0)
+    {
+      EXPECT_NE(body[found[0]], body[found[1]]);
+      EXPECT_EQ(overlappingCells(mesh, std::vector<int>(8, 0), 0.1)[0], -1);
+    }
+  }
+}
