@@ -161,6 +161,22 @@ def test_bars_lose_no_more_than_a_leapfrog_at_a_rigid_wall():
             clean(r)
 
 
+# The problem of Carpenter, Taylor & Katona (1991), multipliers and penalties side by side: example/two_bars/methods.py draws it.
+def test_multipliers_do_not_ring_where_penalties_do():
+    plateau = RHO * C * V / 2
+    for method, where, low, high in (("multipliers", 0.0, 0.997, 1.003), ("multipliers", 0.3, 0.997, 1.003),
+                                     ("penalty 0.3", 0.3, 0.3, 0.7), ("penalty 1.0", 0.0, None, None), ("nitsche", 0.0, None, None)):
+        name, _, factor = method.partition(" ")
+        r = bars(where * H, **{"numerics/constraint/method": name, **({"numerics/constraint/penalty": float(factor)} if factor else {})})
+        middle = [s / plateau for t, s in zip(*contact(r)) if 0.5 * L / C < t < 1.5 * L / C]
+        print(f"  {method} at {where} of a cell: {min(middle):.4f} to {max(middle):.4f} of the exact stress")
+        if low is None:
+            assert max(middle) - min(middle) > 1.0, f"{method} does not ring"
+        else:
+            assert low <= min(middle) <= max(middle) <= high, method
+        clean(r)
+
+
 def test_a_gap_closes_before_any_force():
     gap, speed = 2.3 * H, 50.0
     r = bars(0.25 * H, gap, **{"bodies/left/velocity": f"[{speed / 2}, 0.0]", "bodies/right/velocity": f"[{-speed / 2}, 0.0]",
