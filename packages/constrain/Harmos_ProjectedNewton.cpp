@@ -38,7 +38,9 @@ public:
   {
     if (!start.empty())
       beginAt(start);
-    exchangeActiveSets(rubs_, iterations_ + (rubs_ ? most_coupled_ : patient_iterations_));
+    exchangeActiveSets(false, iterations_ + patient_iterations_, rubs_ ? brief_ : patient_);
+    if (rubs_ && !reached())
+      exchangeActiveSets(true, iterations_ + most_coupled_);
     // Few unknowns are sooner dropped one by one.
     bool const inside_first = many_change_ || n_ > few_unknowns_;
     if (!reached() && inside_first)
@@ -193,8 +195,7 @@ private:
       begin(before);
   }
 
-  /// For sets.
-  void setShiftOfSets(double reached)
+  void setShiftOfSets(double reached, bool coupled)
   {
     struct Law
     {
@@ -203,7 +204,7 @@ private:
     // Of recorded problems with friction the first law solved most, each next one most of what was left.
     constexpr Law rubbing[most_anew_ + 1] = {{1e-3, 2.0}, {0.01, 2.0}, {1e-4, 1.5}, {1e-3, 1.0}, {0.01, 1.5}};
     setShift(0.1, reached);
-    if (rubs_)
+    if (coupled)
       shift_ = rubbing[times_anew_].factor * std::pow(reached / start_, rubbing[times_anew_].power);
   }
 
@@ -245,7 +246,7 @@ private:
       }
       if (least <= enough_ || worse > patience || thrown >= most_thrown)
         break;
-      setShiftOfSets(least);
+      setShiftOfSets(least, coupled);
       if (point == x_)
         slope = g_;
       many_change_ = chooseSets(point, slope, coupled) > few;
@@ -450,7 +451,7 @@ private:
   static constexpr int patient_iterations_ = 20, most_coupled_ = 14, most_before_anew_ = 40, most_anew_ = 4;
   static constexpr int few_unknowns_ = 100, many_unknowns_ = 1000;
   static constexpr int most_inside_ = 25; // iterations of a path inside the bounds with friction, up to many unknowns
-  static constexpr int patient_ = 6, hasty_ = 2; // sets that need not halve the residual
+  static constexpr int patient_ = 6, hasty_ = 2, brief_ = 1; // sets that need not halve the residual
   double const safe_step_;
   Vector least_shift_;
   double start_ = 0.0, shift_ = 0.0;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Block between frictionless rigid platens: momentum along the platens is constant at any angle and offset."""
 from math import cos, radians, sin
+from random import Random
 
 from harness import check, clean, harmos, run
 
@@ -74,6 +75,17 @@ def test_unloaded_block_keeps_its_momentum():
 
 def test_squeezed_block_keeps_its_momentum():
     sweep(8, SQUEEZE, 1e-12)
+
+
+def test_any_angle_and_offset_at_any_resolution():
+    random = Random(7)
+    for cells, slide, times in ((8, 1.0, 3), (16, 0.5, 2), (32, 0.1, 1), (64, 0.02, 1)):
+        for pressure in (0.0, SQUEEZE):
+            for _ in range(times):
+                angle, offset = 90.0 * random.random(), (random.random(), random.random())
+                r = harmos(DECK, settings(angle, offset, cells, pressure, slide=slide))
+                check(f"{cells} cells, {angle:.1f} degrees, pressure {pressure:.1e}: momentum", momentum_error(r, angle), 1e-12)
+                clean(r)
 
 
 # As a coefficient of friction that would take as much; the worst placements of the six angles and three offsets at 16 cells.
