@@ -257,7 +257,7 @@ std::array<int, 2> overlappingCells(HostMesh const &mesh, std::vector<int> const
   };
   std::vector<Corner> low(count), high(count);
   std::vector<double> shortest(count);
-  double width = 0.0; // of bins: the widest cell
+  double boxes = 0.0; // their areas in sum
   for (int c = 0; c < count; ++c)
   {
     std::array<Corner, 4> const x = cornersOf(c);
@@ -273,8 +273,10 @@ std::array<int, 2> overlappingCells(HostMesh const &mesh, std::vector<int> const
         high[c][d] = std::max(high[c][d], x[k][d]);
       }
     }
-    width = std::max({width, high[c][0] - low[c][0], high[c][1] - low[c][1]});
+    boxes += (high[c][0] - low[c][0]) * (high[c][1] - low[c][1]);
   }
+  // Of bins: a wide cell lies in many, so that few cells share one, however coarse a body is beside another.
+  double const width = std::sqrt(boxes / count);
   std::map<std::array<long long, 2>, std::vector<int>> bin;
   auto const binOf = [&](double x) { return static_cast<long long>(std::floor(x / width)); };
   for (int c = 0; c < count; ++c)
