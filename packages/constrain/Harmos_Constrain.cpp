@@ -72,6 +72,23 @@ std::vector<RigidBody> meanBodies(std::vector<RigidBody> const &bodies_n, std::v
   return mean;
 }
 
+/// Solve, and anew while rows with restitution bear that were not about to touch: what strikes them is what others'
+/// impulses move. Each time some row more obeys the law of impact, so that this ends.
+MultiplierSolution solveWithRebound(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
+                                    Motion const &before, Motion const &predicted, double dt,
+                                    ConstraintOptions const &options, Exchange const &exchange,
+                                    std::vector<ContactForce> const &last, WorkArrays const &work)
+{
+  MultiplierSolution solution = solveMultipliers(mesh, system, rows, dt, options, exchange, last, work);
+  while (reboundWhereStruck(rows, before, predicted, dt, solution.impulse, exchange, system))
+  {
+    int const iterations = solution.iterations;
+    solution = solveMultipliers(mesh, system, rows, dt, options, exchange, last, work);
+    solution.iterations += iterations;
+  }
+  return solution;
+}
+
 /// Kinematics `single` without contact walls: both sides of every interface move with the same dof nodes.
 bool nothingToSeparate(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions)
 {
@@ -178,13 +195,12 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   NodeMaterialPairs const dofs = borrowed(dof_nodes);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
   double const compliance = is_explicit || sharesMultipliers(options.placement) ? 0.0 : rubbing_compliance;
-  ContactSystem const system =
-      buildContactSystem(rows, dofs, borrowed(conditions), borrowed(dof_mass), {borrowed(velocity_n), table_n},
-                         {borrowed(predicted), table}, bodies, dt, compliance, arrays);
-  MultiplierSolution const solution = is_explicit
-                                          ? explicitImpulses({mesh, pairs, {velocity_n, table_n}, pair_stress}, system,
-                                                             rows, dt, options, exchange, arrays)
-                                          : solveMultipliers(mesh, system, rows, dt, options, exchange, last, arrays);
+  Motion const before{borrowed(velocity_n), table_n}, after{borrowed(predicted), table};
+  ContactSystem const system = buildContactSystem(rows, dofs, borrowed(conditions), borrowed(dof_mass), before, after,
+                                                  bodies, dt, compliance, arrays);
+  MultiplierSolution const solution =
+      is_explicit ? explicitImpulses({mesh, pairs, before, pair_stress}, system, rows, dt, options, exchange, arrays)
+                  : solveWithRebound(mesh, system, rows, before, after, dt, options, exchange, last, arrays);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;

@@ -141,17 +141,13 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
   return number;
 }
 
-/// b along n of a row that is not tied. \param relative G v*
-KOKKOS_INLINE_FUNCTION double approach(ContactRow const &row, double relative, Motion const &before, double dt)
+/// b along n by the law of impact (Harmos_Constrain.hpp). \param relative G v*
+KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Motion const &before, double dt)
 {
-  double const closing = relative + row.opening() / dt;
-  if (row.restitution == 0.0 || closing >= 0.0)
-    return closing;
   double const start = dot(row.normal, relativeVelocity(row, before.velocity, before.bodies));
-  if (start < 0.0)
-    return relative + row.restitution * start;
   double const gap_rate = row.opening() / dt;
-  return relative + row.restitution * Math::min(start, gap_rate) + (1.0 - row.restitution) * gap_rate;
+  return relative + row.restitution * (start < 0.0 ? start : Math::min(start, gap_rate)) +
+         (start < 0.0 ? 0.0 : (1.0 - row.restitution) * gap_rate);
 }
 
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.
@@ -183,7 +179,9 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         }
         Vector2 const relative = relativeVelocity(r, predicted.velocity, predicted.bodies);
         double const along = dot(r.normal, relative);
-        out.predicted[0] = r.tied ? along : approach(r, along, before, dt);
+        double const closing = along + r.opening() / dt;
+        out.struck = !r.tied && r.restitution > 0.0 && closing < 0.0;
+        out.predicted[0] = r.tied ? along : out.struck ? rebound(r, along, before, dt) : closing;
         out.predicted[1] = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
       });
 }
@@ -267,6 +265,28 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
       });
   system.num_multipliers = rows.num_multipliers;
   return system;
+}
+
+bool reboundWhereStruck(ContactRows const &rows, Motion const &before, Motion const &predicted, double dt,
+                        View<double *[2]> const &impulse, Exchange const &exchange, ContactSystem const &system)
+{
+  ContactSystem const s = system;
+  View<ContactRow *> const row = rows.row;
+  double found = 0.0;
+  launchReduce(
+      "Harmos::constrain::reboundWhereStruck", rows.count,
+      KOKKOS_LAMBDA(int i, double &any) {
+        ContactRow const &r = row(i);
+        SystemRow &out = s.row(i);
+        if (r.tied || r.restitution == 0.0 || out.struck || !(impulse(i, 0) > 0.0))
+          return;
+        double const along = dot(r.normal, relativeVelocity(r, predicted.velocity, predicted.bodies));
+        out.struck = true;
+        out.predicted[0] = rebound(r, along, before, dt);
+        any = 1.0;
+      },
+      Kokkos::Max<double>(found));
+  return exchange.max(found) > 0.0;
 }
 
 void velocityChange(ContactSystem const &system, View<double *[2]> const &impulse, View<double *[2]> const &change)

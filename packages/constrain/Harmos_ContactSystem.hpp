@@ -45,6 +45,7 @@ struct ImpulseBounds
 struct SystemRow
 {
   bool tied;
+  bool struck;     // b by the law of impact
   double friction; // coefficient
   Vector2 normal;
   int dof[8];           // compact dof of side a's corners (0..3) and b's (4..7), -1: none
@@ -151,6 +152,13 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
                                  double dt, double compliance = 0.0, WorkArrays const &work = {});
+
+/// Rows with restitution that bear though they were not about to touch, since what others' impulses move strikes there,
+/// obey the law of impact from here on.
+/// \param impulse num_rows (halo rows included)
+/// \return Whether there is one on any rank.
+bool reboundWhereStruck(ContactRows const &rows, Motion const &before, Motion const &predicted, double dt,
+                        View<double *[2]> const &impulse, Exchange const &exchange, ContactSystem const &system);
 
 /// Change of the dof velocities by impulses: M^-1 P G^T p. [m/s]
 /// \param impulse num_rows (halo rows included); \param change num_dofs
