@@ -135,6 +135,7 @@ void restoreState(Run &run)
   s.time = scalars.time;
   s.cycle = scalars.cycle;
   s.dt = scalars.dt;
+  s.last_dt = scalars.last_dt;
   run.ledger = Ledger::fromValues(arrayOf(scalars, "ledger"));
   restoreTracers(run, arrayOf(scalars, "tracers"));
   restoreBonds(run, arrayOf(scalars, "bond_tracers"), arrayOf(scalars, "bonds"));

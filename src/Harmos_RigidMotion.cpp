@@ -20,11 +20,11 @@ bool samePoses(std::vector<RigidBody> const &a, std::vector<RigidBody> const &b)
 
 } // namespace
 
-std::vector<RigidBody> predictBodies(std::vector<RigidBody> bodies, Vector2 const &gravity, double dt)
+std::vector<RigidBody> predictBodies(std::vector<RigidBody> bodies, Vector2 const &gravity, double kick)
 {
   for (RigidBody &body : bodies)
     if (body.motion == RigidMotion::Free)
-      body.velocity += dt * gravity;
+      body.velocity += kick * gravity;
   return bodies;
 }
 

@@ -9,8 +9,8 @@
 namespace Harmos
 {
 
-/// Free rigid bodies fall; the others keep their motion.
-std::vector<RigidBody> predictBodies(std::vector<RigidBody> bodies, Vector2 const &gravity, double dt);
+/// Free rigid bodies fall for the time `kick`; the others keep their motion.
+std::vector<RigidBody> predictBodies(std::vector<RigidBody> bodies, Vector2 const &gravity, double kick);
 
 /// x += dt v, angle += dt omega.
 void moveBodies(std::vector<RigidBody> &bodies, double dt);

@@ -199,6 +199,8 @@ void RunOutput::writeContacts(Scene const &scene, CycleState const &state, Cycle
 {
   int const m = static_cast<int>(scene.materials.extent(0));
   auto const name = [&](int i) { return i == m ? std::string("contact_wall") : all_names_[i]; };
+  // Of bodies that touch at the start the first impulse stops what meets: a delta, which its whole cycle is to bear.
+  double const span = state.cycle == 1 ? report.dt : report.kick;
   std::vector<ContactEntry> entries;
   for (int a = 0; a < m; ++a)
     for (int b = a + 1; b <= m; ++b)
@@ -209,8 +211,8 @@ void RunOutput::writeContacts(Scene const &scene, CycleState const &state, Cycle
       PairForce const &force = report.constraint.pair_force[at];
       if (force.area == 0.0 && force.normal_impulse == 0.0)
         continue;
-      entries.push_back({name(a), name(b), force.impulse[0] / report.dt, force.impulse[1] / report.dt,
-                         force.normal_impulse, force.area, force.deviation() / report.dt});
+      entries.push_back({name(a), name(b), force.impulse[0] / span, force.impulse[1] / span, force.normal_impulse,
+                         force.area, force.deviation() / span});
     }
   contacts_.write(state.cycle, state.time, entries);
 }
@@ -292,6 +294,7 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   scalars.cycle = state.cycle;
   scalars.time = state.time;
   scalars.dt = state.dt;
+  scalars.last_dt = state.last_dt;
   scalars.kinematics = scene.kinematics;
   scalars.moving_mesh = static_cast<bool>(scene.target_mesh);
   scalars.material_names = all_names_;

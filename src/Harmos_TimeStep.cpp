@@ -22,7 +22,7 @@ constexpr int most_repeats = 8;
 constexpr double largest_growth = 1.05; // of dt from one cycle to the next
 
 /// Work of gravity with v_mean = (v^{n-1/2} + v^{n+1/2})/2 on deformable bodies, owned nodes. [J/m]
-double gravityWork(Scene const &scene, CycleState const &s, double dt)
+double gravityWork(Scene const &scene, CycleState const &s, double kick)
 {
   auto const dof_mass = s.work.dof_mass;
   auto const half = s.work.half;
@@ -37,7 +37,7 @@ double gravityWork(Scene const &scene, CycleState const &s, double dt)
       "Harmos::gravityWork", RangePolicy(0, dof_nodes.num_dof_nodes),
       KOKKOS_LAMBDA(int dof, double &part) {
         if (owned(dof_nodes.node(dof)) == 1)
-          part += 0.5 * dt * dof_mass(dof) *
+          part += 0.5 * kick * dof_mass(dof) *
                   (g[0] * (velocity(dof, 0) + half(dof, 0)) + g[1] * (velocity(dof, 1) + half(dof, 1)));
       },
       sum);
@@ -72,7 +72,7 @@ void bookExternal(Scene const &scene, CycleState const &s, std::vector<RigidBody
   for (std::size_t b = 0; b < s.bodies.size(); ++b)
     if (s.bodies[b].motion == RigidMotion::Free)
     {
-      Vector2 const weight = (report.dt * s.bodies[b].mass) * scene.lagrange.gravity;
+      Vector2 const weight = (report.kick * s.bodies[b].mass) * scene.lagrange.gravity;
       report.external_impulse += weight;
       report.external_work += 0.5 * dot(weight, bodies_n[b].velocity + s.bodies[b].velocity);
     }
@@ -108,17 +108,17 @@ void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials,
 }
 
 /// Forces and the velocities that they predict.
-PredictionSums accelerate(Scene &scene, CycleState &s, double dt)
+PredictionSums accelerate(Scene &scene, CycleState &s, double kick)
 {
   LagrangeOptions options = scene.lagrange;
   options.energy_lag = 0.5 * s.dt; // of the step that lies behind, which the one ahead stands for
   if (scene.kinematics != Kinematics::Lagrangian)
     return computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options,
-                                   dt, s.work);
+                                   kick, s.work);
   computeCornerForces(scene.mesh, s.pairs, s.state, scene.materials, options, s.work);
   addSubzonalForces(scene.mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
                     scene.lagrange.subzonal_pressure, s.work);
-  return predictVelocities(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options, dt,
+  return predictVelocities(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options, kick,
                            s.work);
 }
 
@@ -158,7 +158,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     placeBonds(scene, s);
   PredictionSums prediction;
   TravelReport travel;
-  double dt = s.dt;
+  double dt = s.dt, kick = 0.0;
   View<double *[3]> const stress =
       scene.constraint.method == ConstraintMethod::Nitsche ? pairStress(s, scene.materials) : View<double *[3]>();
   std::vector<RigidBody> const bodies_n = s.bodies;
@@ -166,20 +166,21 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       scene.kinematics == Kinematics::Xfem ? presentShapes(scene, s.bodies) : std::vector<Shape>();
   for (;; dt *= 0.5, ++report.repeats)
   {
+    kick = 0.5 * (s.last_dt + dt);
     {
       PhaseTimer timer("lagrange", times.lagrange);
-      prediction = report.repeats == 0 ? accelerate(scene, s, dt)
+      prediction = report.repeats == 0 ? accelerate(scene, s, kick)
                                        : predictVelocities(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary,
-                                                           scene.materials, scene.lagrange, dt, work);
+                                                           scene.materials, scene.lagrange, kick, work);
     }
     {
       PhaseTimer timer("constrain", times.constrain);
-      s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, dt);
+      s.bodies = predictBodies(bodies_n, scene.lagrange.gravity, kick);
       work.half = work.constrained;
       report.constraint =
           constrainVelocities(mesh, s.pairs, s.dof_nodes, s.regions, scene.boundary, work.dof_mass, s.state.velocity,
-                              work.predicted, work.half, bodies_n, s.bodies, dt, stress, s.bonds, scene.constraint,
-                              exchange, s.force, &s.constraint_work, outlines);
+                              work.predicted, work.half, bodies_n, s.bodies, dt, kick, stress, s.bonds,
+                              scene.constraint, exchange, s.force, &s.constraint_work, outlines);
     }
     // What moves with its mesh outruns no neighbourhood: only the sheared and thinned cells of the reference would pay.
     if (scene.kinematics == Kinematics::Lagrangian)
@@ -192,14 +193,15 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
       break;
   }
   report.dt = dt;
+  report.kick = kick;
   s.force = report.constraint.force;
-  report.broken_bonds = breakBonds(report.constraint.bond_load, scene.constraint, dt, s.bonds);
+  report.broken_bonds = breakBonds(report.constraint.bond_load, scene.constraint, kick, s.bonds);
   if (scene.kinematics != Kinematics::Lagrangian)
   {
     PhaseTimer timer("exchange", times.exchange);
     exchangeDofVelocities(exchange, mesh.halo, s.pairs, work.half);
   }
-  double const gravity_work = gravityWork(scene, s, dt);
+  double const gravity_work = gravityWork(scene, s, kick);
 
   TimeStepLimit next;
   {
@@ -207,7 +209,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     keepForFailure(s.pairs, s.state, work);
     if (closes)
       closeMixedCells(mesh, s.pairs, s.state, scene.materials, dt, work);
-    report.update = updatePairs(mesh, s.pairs, s.state, scene.materials, scene.lagrange, dt, work, next);
+    report.update = updatePairs(mesh, s.pairs, s.state, scene.materials, scene.lagrange, dt, kick, work, next);
     report.failure = failPairs(mesh, scene.kinematics, s.pairs, s.state, scene.materials, dt, work);
   }
   moveBodies(s.bodies, dt);
@@ -254,6 +256,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
 
   s.limit = next;
   s.dt = Math::min(Math::min(exchange.min(next.dt), scene.max_dt), largest_growth * dt);
+  s.last_dt = dt;
   s.time += dt;
   ++s.cycle;
   bookExternal(scene, s, bodies_n, prediction, travel, gravity_work, report);

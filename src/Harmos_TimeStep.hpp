@@ -71,6 +71,7 @@ struct CycleState
   std::vector<ContactForce> force;   // of the last cycle's rows, where the solver starts from them
   double time = 0.0;                 // [s], of the records; velocities are half a step behind
   double dt = 0.0;                   // of the next cycle [s]
+  double last_dt = 0.0;              // of the last cycle, 0 before the first: velocities are half of it behind [s]
   TimeStepLimit limit;               // what sets it
   long long cycle = 0;
   bool started = false; // by startCycle
@@ -90,6 +91,7 @@ struct PhaseTimes
 struct CycleReport
 {
   double dt = 0.0;
+  double kick = 0.0;         // (last cycle's dt + dt)/2: the time for which forces act, from v^{n-1/2} to v^{n+1/2}
   int repeats = 0;           // cycle repeated with half the time step: a node would have outrun its neighbourhood
   int broken_bonds = 0;      // in this cycle
   long long light_nodes = 0; // light dof nodes moved with their pair

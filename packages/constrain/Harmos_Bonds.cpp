@@ -158,12 +158,12 @@ View<double *[2]> nodalImpulses(NodalLoad const &load, WorkArrays const &work)
 
 } // namespace
 
-void carry(BondLoad const &load, double dt, Bond &bond)
+void carry(BondLoad const &load, double kick, Bond &bond)
 {
   Vector2 now{0.0, 0.0};
   if (load.length > 0.0)
-    now = (1.0 / (dt * load.length)) * Vector2{load.normal, load.tangential};
-  double const part = dt < bond.transit ? dt / bond.transit : 1.0;
+    now = (1.0 / (kick * load.length)) * Vector2{load.normal, load.tangential};
+  double const part = kick < bond.transit ? kick / bond.transit : 1.0;
   bond.traction += part * (now - bond.traction);
 }
 
@@ -199,7 +199,8 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
   return bonds;
 }
 
-int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double dt, std::vector<Bond> &bonds)
+int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double kick,
+               std::vector<Bond> &bonds)
 {
   if (bonds.empty())
     return 0;
@@ -209,7 +210,7 @@ int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &optio
   {
     if (bonds[i].broken)
       continue;
-    carry(load[i], dt, bonds[i]);
+    carry(load[i], kick, bonds[i]);
     bonds[i].broken = breaks(bonds[i].traction, law(bonds[i].material_a, bonds[i].material_b).strength);
     count += bonds[i].broken ? 1 : 0;
   }

@@ -44,10 +44,10 @@ constexpr double bond_reach = 2.0;
 /// Widest gap that a bond holds across; wider ones are void between two bodies. [cell sizes]
 constexpr double bond_gap = 0.1;
 
-/// traction += min(1, dt / transit) (load / (dt length) - traction). The impulse that stops the nodes beside a joint at
-/// an impact is set by their masses, whatever the step: over one step it is no traction, over the time in which a wave
-/// passes their cell it is rho c V.
-void carry(BondLoad const &load, double dt, Bond &bond);
+/// traction += min(1, kick / transit) (load / (kick length) - traction). The impulse that stops the nodes beside a
+/// joint at an impact is set by their masses, whatever the step: over one step it is no traction, over the time in
+/// which a wave passes their cell it is rho c V.
+void carry(BondLoad const &load, double kick, Bond &bond);
 
 /// True where (t_n / tensile)^2 + (t_t / shear)^2 >= 1, t_n in tension alone; a strength of 0 has no part.
 bool breaks(Vector2 const &traction, BondStrength const &strength);

@@ -149,15 +149,14 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   return rows;
 }
 
-ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs,
-                                     NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
-                                     BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                                     View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
-                                     View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
-                                     std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
-                                     std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                                     Exchange const &exchange, std::vector<ContactForce> const &last,
-                                     ConstraintWork *kept, std::vector<Shape> const &outline)
+ConstraintReport
+constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                    FilledRegions const &regions, BoundaryConditions const &conditions, View<double *> const &dof_mass,
+                    View<double *[2]> const &velocity_n, View<double *[2]> const &predicted, View<double *[2]> &half,
+                    std::vector<RigidBody> const &bodies_n, std::vector<RigidBody> &bodies, double dt, double kick,
+                    View<double *[3]> const &pair_stress, std::vector<Bond> const &bonds,
+                    ConstraintOptions const &options, Exchange const &exchange, std::vector<ContactForce> const &last,
+                    ConstraintWork *kept, std::vector<Shape> const &outline)
 {
   ScopedRegion const region("Harmos::constrain");
   if (!(dt > 0.0))
@@ -199,8 +198,9 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   ContactSystem const system = buildContactSystem(rows, dofs, borrowed(conditions), borrowed(dof_mass), before, after,
                                                   bodies, dt, compliance, arrays);
   MultiplierSolution const solution =
-      is_explicit ? explicitImpulses({mesh, pairs, before, pair_stress}, system, rows, dt, options, exchange, arrays)
-                  : solveWithRebound(mesh, system, rows, before, after, dt, options, exchange, last, arrays);
+      is_explicit
+          ? explicitImpulses({mesh, pairs, before, pair_stress}, system, rows, dt, kick, options, exchange, arrays)
+          : solveWithRebound(mesh, system, rows, before, after, dt, options, exchange, last, arrays);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;

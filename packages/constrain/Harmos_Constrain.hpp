@@ -110,6 +110,9 @@ struct ConstraintReport
 /// \param bodies_n   Rigid bodies with the velocities before the cycle.
 /// \param bodies     In: predicted velocities. Out: v^{n+1/2}. Poses are not changed.
 /// \param dt         Of the cycle [s]
+/// \param kick       For which forces act, from v^{n-1/2} to v^{n+1/2} (predictVelocities); of penalty and Nitsche
+/// alone
+///                   [s]
 /// \param pair_stress num_pairs: Cauchy stress xx, yy, xy [Pa]; Nitsche's method alone reads it
 /// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
 /// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.
@@ -121,15 +124,13 @@ struct ConstraintReport
 ///         of the last iterate, which conserves momentum all the same.
 ///
 /// Throws std::runtime_error when a body's material is not one of the interaction table, or dt <= 0.
-ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs,
-                                     NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
-                                     BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                                     View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
-                                     View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
-                                     std::vector<RigidBody> &bodies, double dt, View<double *[3]> const &pair_stress,
-                                     std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                                     Exchange const &exchange, std::vector<ContactForce> const &last = {},
-                                     ConstraintWork *kept = nullptr, std::vector<Shape> const &outline = {});
+ConstraintReport constrainVelocities(
+    Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
+    BoundaryConditions const &conditions, View<double *> const &dof_mass, View<double *[2]> const &velocity_n,
+    View<double *[2]> const &predicted, View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
+    std::vector<RigidBody> &bodies, double dt, double kick, View<double *[3]> const &pair_stress,
+    std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
+    std::vector<ContactForce> const &last = {}, ConstraintWork *kept = nullptr, std::vector<Shape> const &outline = {});
 
 /// The bonds of a scene at its start: one for each slave cell and pair of materials whose bond can break, where they
 /// touch. In the order of the global cells, the same on all ranks. Collective.
@@ -140,7 +141,7 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
 
 /// Load the bonds (Harmos::carry) and break those that carry more than their materials' bond bears (Harmos::breaks).
 /// \return How many broke.
-int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double dt,
+int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double kick,
                std::vector<Bond> &bonds);
 
 } // namespace Harmos

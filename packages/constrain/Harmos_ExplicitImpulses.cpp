@@ -15,7 +15,7 @@ struct RowForce
   View<ContactRow *> row;
   View<double *> impedance;
   bool nitsche;
-  double penalty, dt;
+  double penalty, dt, kick;
 
   /// Cauchy traction on the plane of normal n of one side's pair.
   KOKKOS_INLINE_FUNCTION Vector2 traction(int cell, int material, Vector2 const &n) const
@@ -49,7 +49,7 @@ struct RowForce
         mean += (1.0 - part_a) * traction(r.cell_b, r.material_b, n);
       stress = {dot(n, mean), dot(t, mean)};
     }
-    double const scale = dt * r.length;
+    double const scale = kick * r.length;
     Vector2 p{scale * (-stress[0] - penalty * z * velocity[0]), scale * (-stress[1] - penalty * z * velocity[1])};
     p[0] = system.bounds(i, 0, 0.0).clip(p[0]);
     p[1] = system.directions(i) == 2 ? system.bounds(i, 1, system.friction(i) * p[0]).clip(p[1]) : 0.0;
@@ -60,7 +60,7 @@ struct RowForce
 } // namespace
 
 MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem const &system, ContactRows const &rows,
-                                    double dt, ConstraintOptions const &options, Exchange const &exchange,
+                                    double dt, double kick, ConstraintOptions const &options, Exchange const &exchange,
                                     WorkArrays const &work)
 {
   ContactOperator const contact(system, rows, exchange, work);
@@ -68,7 +68,8 @@ MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem con
   View<double *[2]> const residual = work.unset<double *[2]>("Harmos::constrain::residual", system.num_rows);
   View<double *> const reach = work.zeros<double *>("Harmos::constrain::reach", system.num_rows);
   RowForce const force{
-      before, system, rows.row, options.impedance, options.method == ConstraintMethod::Nitsche, options.penalty, dt};
+      before,          system, rows.row, options.impedance, options.method == ConstraintMethod::Nitsche,
+      options.penalty, dt,     kick};
   View<int *> const own = system.own;
   Kokkos::parallel_for(
       "Harmos::constrain::explicitImpulses", RangePolicy(0, system.num_own), KOKKOS_LAMBDA(int i) {

@@ -18,12 +18,12 @@ struct StateBefore
 
 /// Penalty and Nitsche's method, for comparison: impulses of the rows from the state alone, without a solve.
 ///
-///   penalty:  p = dt L beta Z (- G v* - max(gap, 0)/dt),
-///   Nitsche:  p = dt L [- n . {sigma} n + beta Z (- G v^{n-1/2} - max(gap, 0)/dt)],
+///   penalty:  p = kick L beta Z (- G v* - max(gap, 0)/dt),
+///   Nitsche:  p = kick L [- n . {sigma} n + beta Z (- G v^{n-1/2} - max(gap, 0)/dt)],
 ///
 /// p >= 0 (tied: of any sign, and the same across n; friction: within -mu p, mu p). L is the row's length, beta
 /// options.penalty, Z the harmonic mean of the impedances, {sigma} the mean weighted by the other side's impedance, so
-/// that the softer side decides; a rigid side has no part. Either is stable only while dt L beta Z G M^-1 G^T stays
+/// that the softer side decides; a rigid side has no part. Either is stable only while kick L beta Z G M^-1 G^T stays
 /// below about two: nothing here limits the step.
 ///
 /// \return `iterations` 1; `residual` as of the multipliers (Harmos_MultiplierSolver.hpp), by what the rows are missed;
@@ -31,7 +31,7 @@ struct StateBefore
 /// Nitsche, Abh. Math. Sem. Univ. Hamburg 36 (1971) 9-15; weights: Annavarapu, Hautefeuille & Dolbow, Comput. Methods
 /// Appl. Mech. Engng 225-228 (2012) 44-54.
 MultiplierSolution explicitImpulses(StateBefore const &before, ContactSystem const &system, ContactRows const &rows,
-                                    double dt, ConstraintOptions const &options, Exchange const &exchange,
+                                    double dt, double kick, ConstraintOptions const &options, Exchange const &exchange,
                                     WorkArrays const &work = {});
 
 } // namespace Harmos

@@ -165,6 +165,13 @@ private:
     return violation() <= enough_;
   }
 
+  /// Back to `before` unless what has been found since is enough, or less than the violation there.
+  void keepIfBetter(Vector const &before, double least)
+  {
+    if (!reached() && !(violation() < least))
+      begin(before);
+  }
+
   /// Where many unknowns change places for ever: a path inside the bounds, and sets once more from its end. Friction
   /// that couples strongly may leave it farther off than the sets had been.
   /// \param damped See InteriorPoint::solve.
@@ -178,8 +185,7 @@ private:
     iterations_ += interior.solve(enough_, std::min(most, max_iterations_ - iterations_), damped);
     begin(interior.impulses());
     exchangeActiveSets(rubs_, max_iterations_, rubs_ ? patient_ : hasty_);
-    if (!reached() && !(violation() < least))
-      begin(before);
+    keepIfBetter(before, least);
   }
 
   /// Sets with friction that came to no end: once more from zero, with other shifts. Rows that hardly tell impulses
@@ -191,8 +197,7 @@ private:
     double const least = violation();
     begin(Vector(n_, 0.0));
     exchangeActiveSets(true, iterations_ + most_coupled_);
-    if (!reached() && !(violation() < least))
-      begin(before);
+    keepIfBetter(before, least);
   }
 
   void setShiftOfSets(double reached, bool coupled)

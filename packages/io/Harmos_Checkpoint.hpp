@@ -17,8 +17,9 @@ namespace Harmos
 struct CheckpointScalars
 {
   long long cycle = 0;
-  double time = 0.0; // t^n of the next cycle [s]
-  double dt = 0.0;   // of the next cycle [s]
+  double time = 0.0;    // t^n of the next cycle [s]
+  double dt = 0.0;      // of the next cycle [s]
+  double last_dt = 0.0; // of the last one [s]
   Kinematics kinematics = Kinematics::Xfem;
   bool moving_mesh = false; // the node positions belong to the state, as they do in `lagrangian` kinematics
   std::vector<std::string> material_names;

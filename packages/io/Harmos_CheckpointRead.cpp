@@ -107,9 +107,10 @@ CheckpointScalars readScalars(std::string const &path, Hdf5File const &file)
   CheckpointScalars scalars;
   scalars.cycle = file.readAttribute<long long>("/", "cycle");
   scalars.kinematics = static_cast<Kinematics>(file.readAttribute<int>("/", "kinematics"));
-  auto const times = readShared(path, file, "/time_and_dt", 1);
+  auto const times = readShared(path, file, "/time_and_steps", 1);
   scalars.time = times.at(0);
   scalars.dt = times.at(1);
+  scalars.last_dt = times.at(2);
   scalars.deck = file.readText("/deck");
   scalars.version = file.readText("/version");
   scalars.material_names = splitLines(file.readText("/materials"));
@@ -295,7 +296,7 @@ void writeScalars(Hdf5File &file, MPI_Comm comm, CheckpointScalars const &scalar
 {
   file.writeAttribute("/", "cycle", scalars.cycle);
   file.writeAttribute("/", "kinematics", static_cast<int>(scalars.kinematics));
-  writeShared(file, comm, "/time_and_dt", {scalars.time, scalars.dt}, 1);
+  writeShared(file, comm, "/time_and_steps", {scalars.time, scalars.dt, scalars.last_dt}, 1);
   file.writeText("/deck", scalars.deck);
   file.writeText("/version", scalars.version);
   file.writeText("/materials", joinLines(scalars.material_names));

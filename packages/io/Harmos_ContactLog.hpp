@@ -15,7 +15,7 @@ namespace Harmos
 struct ContactEntry
 {
   std::string a, b;     // names
-  double force_x = 0.0; // force on a by b, the impulse of the cycle over its dt [N/m]
+  double force_x = 0.0; // force on a by b, the impulse over the time for which forces act in the cycle [N/m]
   double force_y = 0.0;
   double normal_impulse = 0.0; // sum of the normal multipliers of the cycle, >= 0 [N s/m]
   double area = 0.0;           // length of the loaded segments [m]

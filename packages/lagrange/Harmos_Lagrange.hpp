@@ -48,7 +48,7 @@ struct LagrangeWork
 {
   View<double *[8]> corner_force; // num_pairs: fx, fy of corners 0..3, time level n [N/m]
   View<double *> dof_mass;        // num_dof_nodes [kg/m]
-  View<double *[2]> predicted;    // num_dof_nodes: v* = v^{n-1/2} + dt a^n, node conditions applied
+  View<double *[2]> predicted;    // num_dof_nodes: v* = v^{n-1/2} + kick a^n, node conditions applied
   View<double *[2]> half;         // num_dof_nodes: v^{n+1/2}, after the constraints; `constrained`, or `predicted`
   View<double *[2]> constrained;  // itself where nothing has changed that
   View<double *> node_altitude;   // num_nodes: least altitude of the cells around [length]
@@ -80,8 +80,8 @@ struct PredictionSums
   Vector2 wall_impulse = {0.0, 0.0}; // by node conditions on the bodies, sum m (v_bc - v_unconstrained) [N s/m]
   double wall_work = 0.0;            // that impulse . v_mean, v_mean with the predicted velocity [J/m]
   Vector2 gravity_impulse = {0.0, 0.0};
-  double gravity_work = 0.0;           // sum m g dt . v_mean with the predicted velocity: constraints add dt g . J / 2,
-                                       // J their external impulse [J/m]
+  double gravity_work = 0.0; // sum m g kick . v_mean with the predicted velocity: constraints add kick g . J / 2,
+                             // J their external impulse [J/m]
   Vector2 driven_impulse = {0.0, 0.0}; // single: by which rigid materials hold shared nodes [N s/m]
   double driven_work = 0.0;            // that impulse . velocity [J/m]
 };
@@ -161,13 +161,15 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work);
 
-/// v* = v^{n-1/2} + dt (f / m + g), node conditions applied -> work.predicted; lumped mass -> work.dof_mass.
+/// v* = v^{n-1/2} + kick (f / m + g), node conditions applied -> work.predicted; lumped mass -> work.dof_mass.
 ///
+/// \param kick From v^{n-1/2} to v^{n+1/2}: half the last cycle's dt and half of this one's, in the first cycle half of
+///             its own, for its velocities are those of t = 0. [s]
 /// A dof node that a rigid material moves (its own one; where all materials share it, any around it) keeps its
 /// velocity. \return Sums over owned nodes.
 PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                                  PairState const &state, BoundaryConditions const &boundary,
-                                 View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                                 View<Material *> const &materials, LagrangeOptions const &options, double kick,
                                  LagrangeWork &work);
 
 /// computeCornerForces and predictVelocities in one, to the bit: piece by piece of the cells, with the nodes all of
@@ -175,7 +177,7 @@ PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pair
 PredictionSums computeForcesAndPredict(Mesh const &mesh, CellMaterialPairs const &pairs,
                                        NodeMaterialPairs const &dof_nodes, PairState const &state,
                                        BoundaryConditions const &boundary, View<Material *> const &materials,
-                                       LagrangeOptions const &options, double dt, LagrangeWork &work);
+                                       LagrangeOptions const &options, double kick, LagrangeWork &work);
 
 /// Keep every dof node within 0.9 of the least altitude of the cells around: dt |v_half| <= 0.9 altitude.
 ///
@@ -208,13 +210,14 @@ void closeMixedCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairState
 
 /// Advance the records of the deformable pairs to t^{n+1}, in place, with v_half = work.half and
 /// v_mean = (state.velocity + v_half) / 2:
-/// m (e' - e) = - dt sum_I f_I . v_mean_I; sv' = sv A'/A; strain and spin from the mean-quadrature gradient at
+/// m (e' - e) = - kick sum_I f_I . v_mean_I; sv' = sv A'/A; strain and spin from the mean-quadrature gradient at
 /// mid-step; deviator rotated (Hughes-Winget), 2 G dev(D) dt added, returned to the yield surface (strainedDeviator),
 /// whose temperature and pressure are those of sv', e'.
 ///
 /// \param next The stable step of the new state, as stableTimeStep at v_half and x'.
+/// \param kick As of predictVelocities: the work is that of the impulses kick f. [s]
 UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
-                         View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                         View<Material *> const &materials, LagrangeOptions const &options, double dt, double kick,
                          LagrangeWork const &work, TimeStepLimit &next);
 
 /// Specific volume and plastic strain of time n -> work.before, for failPairs; nothing where no damage is tracked.

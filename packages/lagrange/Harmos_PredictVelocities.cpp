@@ -119,12 +119,12 @@ struct PredictFunctor
   double *dof_mass;
   Vector2 gravity;
   bool has_gravity;
-  double dt;
+  double kick;
   int begin, end; // dof nodes
 
   KOKKOS_FORCEINLINE_FUNCTION Vector2 accelerate(int dof, Gathered const &g) const
   {
-    Vector2 const impulse = dt * (g.force + g.mass * gravity);
+    Vector2 const impulse = kick * (g.force + g.mass * gravity);
     return Vector2{velocity(dof, 0), velocity(dof, 1)} + (g.mass > 0.0 ? 1.0 / g.mass : 0.0) * impulse;
   }
 
@@ -148,7 +148,7 @@ struct PredictFunctor
     if (node_owned[node] == 0)
       return;
     Vector2 const mean = 0.5 * (v + v_star);
-    Vector2 const by_gravity = (dt * g.mass) * gravity;
+    Vector2 const by_gravity = (kick * g.mass) * gravity;
     Vector2 const by_other = g.mass * (v_star - free);
     sums.gravity_impulse += by_gravity;
     sums.gravity_work += dot(by_gravity, mean);
@@ -274,8 +274,8 @@ struct PredictFunctor
       loadPoints([&](int lane) { return velocity.row(Math::min(first + lane, end - 1)); }, x, y);
     auto const massive = plain.mass > Pack(0.0);
     Pack const per_mass = select(massive, Pack(1.0 / select(massive, plain.mass, Pack(1.0))), Pack(0.0));
-    x = x + per_mass * (dt * plain.force_x);
-    y = y + per_mass * (dt * plain.force_y);
+    x = x + per_mass * (kick * plain.force_x);
+    y = y + per_mass * (kick * plain.force_y);
     if (plain.lanes == all_lanes)
     {
       storePack(dof_mass + first, plain.mass);
@@ -293,7 +293,7 @@ struct PredictFunctor
 detail::NodeKernel detail::prediction(Mesh const &mesh, CellMaterialPairs const &pairs,
                                       NodeMaterialPairs const &dof_nodes, PairState const &state,
                                       BoundaryConditions const &boundary, View<Material *> const &materials,
-                                      LagrangeOptions const &options, double dt, LagrangeWork &work)
+                                      LagrangeOptions const &options, double kick, LagrangeWork &work)
 {
   GatherCorners const gather{mesh.node_cell.offset.data(),
                              mesh.node_cell.item.data(),
@@ -316,7 +316,7 @@ detail::NodeKernel detail::prediction(Mesh const &mesh, CellMaterialPairs const 
                              work.dof_mass.data(),
                              gravity,
                              gravity[0] != 0.0 || gravity[1] != 0.0,
-                             dt,
+                             kick,
                              0,
                              0};
   return [whole](int begin, int end, PredictionSums &sums)
@@ -335,22 +335,22 @@ detail::NodeKernel detail::prediction(Mesh const &mesh, CellMaterialPairs const 
 
 PredictionSums predictVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                                  PairState const &state, BoundaryConditions const &boundary,
-                                 View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                                 View<Material *> const &materials, LagrangeOptions const &options, double kick,
                                  LagrangeWork &work)
 {
   PredictionSums sums;
-  detail::prediction(mesh, pairs, dof_nodes, state, boundary, materials, options, dt, work)(0, dof_nodes.num_dof_nodes,
-                                                                                            sums);
+  detail::prediction(mesh, pairs, dof_nodes, state, boundary, materials, options, kick,
+                     work)(0, dof_nodes.num_dof_nodes, sums);
   return sums;
 }
 
 PredictionSums computeForcesAndPredict(Mesh const &mesh, CellMaterialPairs const &pairs,
                                        NodeMaterialPairs const &dof_nodes, PairState const &state,
                                        BoundaryConditions const &boundary, View<Material *> const &materials,
-                                       LagrangeOptions const &options, double dt, LagrangeWork &work)
+                                       LagrangeOptions const &options, double kick, LagrangeWork &work)
 {
   auto const forces = detail::cornerForces(mesh, pairs, state, materials, options, work);
-  auto const predict = detail::prediction(mesh, pairs, dof_nodes, state, boundary, materials, options, dt, work);
+  auto const predict = detail::prediction(mesh, pairs, dof_nodes, state, boundary, materials, options, kick, work);
   bool const on_host = std::is_same<MemorySpace, Kokkos::HostSpace>::value;
   int const piece = on_host ? cells_at_once * ExecutionSpace().concurrency() : Math::max(mesh.num_cells, 1);
   if (work.pieces.of.data() != mesh.node_cell.offset.data() || work.pieces.cells != piece)

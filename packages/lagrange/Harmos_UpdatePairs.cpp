@@ -83,7 +83,7 @@ struct UpdateFunctor
   Material const *materials;
   LagrangeOptions options;
   detail::StepLimits limits;
-  double dt;
+  double dt, kick;
   RowPointer<int, 4> cell_node, dof_node;
   RowPointer<double, 2> position, velocity, half;
   RowPointer<double, num_pair_fields> record;
@@ -158,7 +158,7 @@ struct UpdateFunctor
     }
     Pack const power = cornerPower(corner_force, pair, run, detail::packedCorners(dofs, velocity), v);
     auto const updated =
-        detail::updatePair<geometry>(material, detail::loadPackedRecord(record, pair, run), x, v, power, dt,
+        detail::updatePair<geometry>(material, detail::loadPackedRecord(record, pair, run), x, v, power, dt, kick,
                                      actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell)
                                          ? cut.template velocityGradient<geometry>(pair, cell, v)
                                          : detail::CutVelocityGradient<Pack>{});
@@ -193,7 +193,7 @@ struct UpdateFunctor
 
 template <Geometry geometry>
 UpdateSums launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
-                  View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                  View<Material *> const &materials, LagrangeOptions const &options, double dt, double kick,
                   LagrangeWork const &work)
 {
   UpdateFunctor<geometry> const update{pairs,
@@ -204,6 +204,7 @@ UpdateSums launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState co
                                        options,
                                        detail::StepLimits(options),
                                        dt,
+                                       kick,
                                        mesh.cell_node,
                                        pairs.dof_node,
                                        mesh.node_position,
@@ -238,11 +239,11 @@ KOKKOS_INLINE_FUNCTION void volumeAndRate(Geometry geometry, detail::Corners<dou
 } // namespace
 
 UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
-                         View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                         View<Material *> const &materials, LagrangeOptions const &options, double dt, double kick,
                          LagrangeWork const &work, TimeStepLimit &next)
 {
   auto const launcher = mesh.geometry == Geometry::Planar ? launch<Geometry::Planar> : launch<Geometry::Axisymmetric>;
-  UpdateSums const result = launcher(mesh, pairs, state, materials, options, dt, work);
+  UpdateSums const result = launcher(mesh, pairs, state, materials, options, dt, kick, work);
   next = limitFrom(result.largest, pairs);
   UpdateReport report;
   report.inverted = result.inverted;

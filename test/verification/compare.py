@@ -24,7 +24,7 @@ def same_state(a, b):
         assert ("pairs/damage" in left) == ("pairs/damage" in right), "only one of the runs tracks damage"
         names += ["pairs/damage"] if "pairs/damage" in left else []
         moving = ["nodes/global", "nodes/position"] if "nodes" in left else []
-        for name in names + moving + ["time_and_dt"] + (["bodies"] if "bodies" in left else []):
+        for name in names + moving + ["time_and_steps"] + (["bodies"] if "bodies" in left else []):
             x, y = left[name][...], right[name][...]
             assert x.shape == y.shape, f"{name}: {x.shape} and {y.shape}"
             differ = numpy.argwhere(x != y)

@@ -48,6 +48,10 @@ class Run:
     def last(self, column):
         return self.history[column][-1]
 
+    def time_of_velocities(self):
+        """Of the last ones: momentum, kinetic energy and work stand half a step behind positions."""
+        return self.last("time") - 0.5 * self.last("dt")
+
 
 def read_columns(path):
     """Columns of a CSV file by name; numbers where they are numbers."""

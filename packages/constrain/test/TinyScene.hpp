@@ -133,7 +133,7 @@ struct TinyScene
   {
     bodies = bodies_n;
     return constrainVelocities(mesh, pairs, dof_nodes, regions, conditions, dof_mass, velocity_n, predicted, half,
-                               bodies_n, bodies, dt, pair_stress, bonds, options, *exchange, last, kept, outline);
+                               bodies_n, bodies, dt, dt, pair_stress, bonds, options, *exchange, last, kept, outline);
   }
 
   void forEachDof(std::function<void(int, int, Vector2)> const &visit) const

@@ -24,6 +24,7 @@ CheckpointScalars scalarsOf(long long cycle)
   s.cycle = cycle;
   s.time = 1.0 / 3.0;
   s.dt = std::numeric_limits<double>::denorm_min();
+  s.last_dt = 0.1;
   s.material_names = {"copper", "anvil"};
   s.bodies.resize(2);
   s.bodies[1] = {1, RigidMotion::Free, false, 2.0, 3.0, {0.1, 0.2}, 0.3, {-0.0, 5.0}, 0.7};
@@ -102,6 +103,7 @@ TEST(Checkpoint, scalars_readBackExactly)
   EXPECT_EQ(got.cycle, want.cycle);
   EXPECT_EQ(got.time, want.time);
   EXPECT_EQ(got.dt, want.dt);
+  EXPECT_EQ(got.last_dt, want.last_dt);
   EXPECT_EQ(got.kinematics, want.kinematics);
   EXPECT_EQ(got.material_names, want.material_names);
   EXPECT_EQ(got.ledger, want.ledger);

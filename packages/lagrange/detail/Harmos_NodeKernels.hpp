@@ -23,7 +23,7 @@ PairKernel cornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairSt
 /// predictVelocities of some of the dof nodes.
 NodeKernel prediction(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                       PairState const &state, BoundaryConditions const &boundary, View<Material *> const &materials,
-                      LagrangeOptions const &options, double dt, LagrangeWork &work);
+                      LagrangeOptions const &options, double kick, LagrangeWork &work);
 
 } // namespace detail
 } // namespace Harmos

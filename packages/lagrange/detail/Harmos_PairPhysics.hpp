@@ -155,7 +155,7 @@ KOKKOS_FORCEINLINE_FUNCTION void addCut(ScaledRingVelocityGradient<T> &g, T cons
 template <Geometry geometry, class T>
 KOKKOS_FORCEINLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, PairRecord<T> const &pair,
                                                       Corners<T> const &x, Corners<T> const &v, T power, double dt,
-                                                      CutVelocityGradient<T> const &cut)
+                                                      double kick, CutVelocityGradient<T> const &cut)
 {
   Corners<T> const x_np1 = moved(x, dt, v);
   auto motion = stepMotion<geometry>(x, x_np1, v);
@@ -172,7 +172,7 @@ KOKKOS_FORCEINLINE_FUNCTION UpdatedPair<T> updatePair(Material const &material, 
   T const dilatation = dt * cut.trace();
   updated.specific_volume = pair.specific_volume * (motion.volume_np1 * (inverse_both * motion.volume_mid)) *
                             (1.0 + dilatation * (1.0 + 0.5 * dilatation)); // exp to second order, above zero
-  updated.internal_energy = pair.internal_energy + dt * power * (inverse * both);
+  updated.internal_energy = pair.internal_energy + kick * power * (inverse * both);
   Deviator<T> const turned = rotate(pair.deviator, T((0.5 * step) * (motion.gradient.yx - motion.gradient.xy)));
   StrainIncrement<T> const strain = strainIncrement(motion.gradient, step);
   ReturnedStress<T> const returned = strainedDeviator(material, turned, strain, pair.plastic_strain,

@@ -62,7 +62,7 @@ struct Scene
 
   UpdateReport update(double dt, TimeStepLimit &next)
   {
-    return updatePairs(mesh, pairs, state, materials, options, dt, work, next);
+    return updatePairs(mesh, pairs, state, materials, options, dt, dt, work, next);
   }
 
   /// After the update: nodes to their moved places (kinematics lagrangian), velocities to v_half.
