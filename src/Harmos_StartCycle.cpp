@@ -106,6 +106,13 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
     scene.constraint.short_segments = deviceCopy("short_segments", shortSegments(scene, laws));
   if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)
     scene.subzone_fraction = subzoneFractions(scene.mesh);
+  if (scene.reconstruction.exact.extent(0) == 0)
+  {
+    std::vector<int> exact;
+    for (Material const &law : laws)
+      exact.push_back(law.rigid_body >= 0 ? 1 : 0);
+    scene.reconstruction.exact = deviceCopy("exact", exact);
+  }
   bool can_fail = false;
   for (Material const &law : laws)
     can_fail = can_fail || canFail(law);

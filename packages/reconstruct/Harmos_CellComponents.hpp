@@ -20,6 +20,7 @@ struct ReconstructionField
   CellMaterialPairs pairs;
   View<double *[num_pair_fields]> record;
   View<double *[2]> centroid; // read where centroids are used
+  View<int *> exact = {};     // materials: 1 where volumes and centroids are those of the body's shape; extent 0: none
 };
 
 /// The components of a mixed cell (its materials, ascending, then void where there is some) in the cell's own
@@ -36,9 +37,11 @@ struct CellComponents
   int material[max_components];
   double volume[max_components];    // volume fractions
   Vector2 centroid[max_components]; // meaningful where centroids were asked for
+  ComponentSet exact;               // those whose volumes and centroids are their shape's
 
   KOKKOS_INLINE_FUNCTION ComponentSet all() const { return (1u << count) - 1u; }
   KOKKOS_INLINE_FUNCTION bool holds(ComponentSet set, int k) const { return (set >> k) & 1u; }
+  KOKKOS_INLINE_FUNCTION bool isExact(ComponentSet set) const { return (set & ~exact) == 0u; }
   KOKKOS_INLINE_FUNCTION Vector2 toUnit(Vector2 const &x) const { return (1.0 / size) * (x - corner); }
   KOKKOS_INLINE_FUNCTION Vector2 fromUnit(Vector2 const &xi) const { return corner + size * xi; }
 
@@ -126,12 +129,16 @@ KOKKOS_INLINE_FUNCTION CellComponents cellComponents(ReconstructionField const &
     c.weight = {per_mean_radius * c.corner[0], per_mean_radius * c.size};
   }
   c.count = 0;
+  c.exact = 0u;
+  bool const some_exact = field.exact.extent(0) > 0;
   double filled = 0.0;
   Vector2 first{0.0, 0.0};
   for (int pair = field.pairs.offset(cell); pair < field.pairs.offset(cell + 1); ++pair)
   {
     int const k = c.count++;
     c.material[k] = field.pairs.material(pair);
+    if (some_exact && field.exact(c.material[k]) == 1)
+      c.exact |= 1u << k;
     c.volume[k] = field.record(pair, VolumeFraction);
     filled += c.volume[k];
     c.centroid[k] = {0.0, 0.0};

@@ -24,6 +24,9 @@ struct ReconstructionOptions
   /// Fixed order of removal: material numbers, first removed first; void, written -1, is last when not listed.
   /// Extent 0: all orders are tried by least centroid error (moment-of-fluid), or ascending material number (Youngs).
   View<int *> order;
+  /// By material, 1: rigid, so that volumes and centroids are those of its shape and not what remaps have left. Extent
+  /// 0: none.
+  View<int *> exact;
 };
 
 struct ReconstructionReport

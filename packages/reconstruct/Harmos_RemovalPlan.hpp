@@ -127,8 +127,8 @@ struct CutNormal
   bool converged; // of the search for the angle
 };
 
-/// Youngs: along the gradient of (fraction of the inside - fraction of the outside). Moment-of-fluid: from the smaller
-/// side's centroid, or by least squares where that side is a sliver.
+/// Youngs: along the gradient of (fraction of the inside - fraction of the outside). Moment-of-fluid: by least squares
+/// where the smaller side is a sliver, else from the centroid of the side that is exact alone, or of the smaller one.
 KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, CellComponents const &components,
                                            ReconstructionMethod method, SliverBounds const &slivers,
                                            Region const &polygon, ComponentSet inside, ComponentSet outside)
@@ -140,7 +140,7 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
     return {normal, 0.0, 0.0, true};
   }
   double const inside_volume = components.volumeOf(inside), outside_volume = components.volumeOf(outside);
-  bool const cut_inside = inside_volume <= outside_volume;
+  bool cut_inside = inside_volume <= outside_volume;
   ComponentSet const smaller = cut_inside ? inside : outside;
   double volume = cut_inside ? inside_volume : outside_volume;
   if (volume < slivers.ofSet(components, smaller))
@@ -153,8 +153,11 @@ KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, Cel
     LeastSquaresLine const line = leastSquaresLine(field, components, polygon, inside, outside, fallback);
     return {line.normal, sliver_penalty * volume * line.misfit, 0.0, line.converged};
   }
+  if (components.isExact(inside) != components.isExact(outside))
+    cut_inside = components.isExact(inside);
   ComponentSet const placing =
-      placingSet(components, slivers, polygon, smaller, volume, cut_inside ? outside_volume : inside_volume);
+      placingSet(components, slivers, polygon, cut_inside ? inside : outside,
+                 cut_inside ? inside_volume : outside_volume, cut_inside ? outside_volume : inside_volume);
   volume = components.volumeOf(placing);
   Vector2 const centroid = (1.0 / volume) * components.firstMomentOf(placing);
   MomentOfFluidLine const line = momentOfFluidLine(polygon, volume, centroid, components.weight);
@@ -276,6 +279,9 @@ KOKKOS_INLINE_FUNCTION double leastSliverPenalty(ReconstructionField const &fiel
 /// (within 1e-20) go to the order that comes first. Partial sums that are no better, or cannot become so, are not
 /// followed, cuts are shared by the orders that begin with them, and the last two components need one cut.
 ///
+/// An exact component that one line leaves as it is has a straight face in the cell, and is cut off first whatever the
+/// others miss: their noise would turn that face, or end it at a wedge of void.
+///
 /// Ahn & Shashkov, J. Comput. Phys. 226 (2007) 2096-2132, with first moments in place of centroids.
 KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, CellComponents const &components,
                                             SliverBounds const &slivers)
@@ -293,6 +299,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
   rest[0] = components.all();
   candidate[0] = -1;
   error[0] = 0.0;
+  bool straight = false; // the first one has a straight face
   // No sum is below zero: one within a tie of it is not beaten.
   for (int depth = 0; depth >= 0 && best.error > removal_tie;)
   {
@@ -300,7 +307,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
     int k = candidate[depth] + 1;
     while (k < count && !components.holds(rest[depth], k))
       ++k;
-    if (k >= count || (two_left && candidate[depth] >= 0))
+    if (k >= count || (two_left && candidate[depth] >= 0) || (depth == 0 && straight))
     {
       --depth;
       continue;
@@ -317,6 +324,11 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
         divide(polygon[depth], cut.normal, components.volume[k], components.volumeOf(others), components.weight);
     plan.unfinished += cut.converged ? 0 : 1;
     double total = error[depth] + cut.penalty + momentError(components, slivers, division.inside, k, cut.normal);
+    if (depth == 0 && components.holds(components.exact, k) && total <= removal_tie)
+    {
+      straight = true;
+      best.error = 1e300;
+    }
     int last = 0;
     while (!components.holds(others, last))
       ++last;

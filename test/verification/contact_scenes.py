@@ -195,8 +195,9 @@ def test_three_blocks_at_a_t_push_the_slider_out_as_body_fitted_ones_do():
     h = 2.4 / 38
     quiet = ((0.0, (0.0, 0.0)), (15.0, (0.31 * h, 0.17 * h)))
     hard = quiet + ((30.0, (0.0, 0.0)),)
-    # The last on a node at 45 degrees: 2.0e-3 to 1.2e-2 while void took the slider's corner away there.
-    for load, placed, worst in ((1.0, quiet, 5e-5), (4.0, hard, 6e-4), (4.0, ((45.0, (0.0, 0.0)),), 1.2e-3)):
+    # The last on a node at 45 degrees: 2.0e-3 to 1.2e-2 while void took the slider's corner away there; eight offsets by up to
+    # 8e-11 cells now give 9e-4 to 1.8e-3.
+    for load, placed, worst in ((1.0, quiet, 5e-5), (4.0, hard, 6e-4), (4.0, ((45.0, (0.0, 0.0)),), 1.6e-3)):
         time, exact = fitted_tee(load)
         print(f"  load {load}: body-fitted {exact[-1]:.2e}, all energy released {released(load):.2e}")
         check("body-fitted gain of the slider, over what the energy released gives", abs(exact[-1] / released(load) - 1.0), 0.3)

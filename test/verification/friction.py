@@ -101,7 +101,7 @@ def pulled(angle, shear, offset=0.0):
 
     The load is what the displacement of the grips gives without waves: (2 G d / length) of a bar without lateral strain, G d / height
     of a sheared layer (which is without load at its ends, over about its height). By offsets of 1e-9 cells a sheared layer at 30 degrees
-    breaks at 0.935 to 0.984: the median of a few says more than one.
+    breaks at 0.935 to 0.984, at 0 degrees by eight offsets of up to half a cell at 0.950 to 0.999: the median of a few says more than one.
     """
     rho, g, strength, step = 1000.0, 1.5e9, 3.0e6, 0.02
     half, width = (4.0, 20.0) if shear else (12.0, 8.0)
@@ -136,7 +136,7 @@ def test_a_joint_breaks_at_its_strength_whatever_its_angle_to_the_mesh():
     for angle in (0.0, 20.0, 45.0):
         check("traction over tensile strength, from one", abs(pulled(angle, False) - 1.0), 0.07)
     for angle in (0.0, 30.0):
-        found = sorted(pulled(angle, True, offset) for offset in ((0.0,) if angle == 0.0 else (0.0, 1e-9, 2e-9)))
+        found = sorted(pulled(angle, True, offset) for offset in ((0.0, 0.05, 0.13) if angle == 0.0 else (0.0, 1e-9, 2e-9)))
         check("traction over shear strength, from one", abs(found[len(found) // 2] - 1.0), 0.07)
 
 
