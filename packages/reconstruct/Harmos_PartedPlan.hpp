@@ -193,6 +193,58 @@ KOKKOS_INLINE_FUNCTION bool mayBeFilm(CellComponents const &components, double s
   return components.material[last] == void_material && volume >= sliver && volume < film_volume;
 }
 
+/// Whether a plan that is a sequence of two bodies and void puts the void beyond the line between the bodies, seen from
+/// all void of its neighbours.
+///
+/// A tip of void comes in from there. Overlaps along the line between the bodies move the centroid of 1e-5 of the cell
+/// by a part of the cell: void took the corner of the one that goes on below, though it is the other that ends.
+/// \param open_volume Void of a neighbour that tells, of the cell.
+KOKKOS_INLINE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellComponents const &components,
+                                         RemovalPlan const &plan, double open_volume)
+{
+  if (components.count != 3 || components.material[2] != void_material || plan.parted || plan.corner || plan.apart ||
+      plan.filmed)
+    return false;
+  int const between = plan.component[0] == 2 ? 1 : 0; // the cut with a body on either side
+  Region polygon = components.polygon;
+  ComponentSet rest = components.all();
+  Plane2 line;
+  Region open;
+  for (int i = 0; i < 2; ++i)
+  {
+    int const k = plan.component[i];
+    rest &= ~(1u << k);
+    Division const cut =
+        divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight);
+    if (i == between)
+      line = cut.line;
+    if (k == 2)
+      open = cut.inside;
+    polygon = cut.outside;
+  }
+  if (plan.component[2] == 2)
+    open = polygon;
+  if (open.empty())
+    return false;
+  Vector2 const own = open[0] + components.momentsOf(open).centroid();
+  double const side = dot(line.normal, own) - line.offset;
+  double least = 1e300;
+  Rows const &neighbours = field.mesh.cell_neighbour;
+  for (int n = neighbours.offset(components.cell); n < neighbours.offset(components.cell + 1); ++n)
+  {
+    int const cell = neighbours.item(n);
+    if (setFraction(field, components, 1u << 2, cell) < open_volume || componentCount(field, cell) > max_components)
+      continue;
+    CellComponents const there = cellComponents(field, cell, true);
+    Vector2 const centroid = components.toUnit(there.fromUnit(there.centroid[there.count - 1]));
+    double const its = dot(line.normal, centroid) - line.offset;
+    if (its * side > 0.0)
+      return false;
+    least = Math::min(least, Math::fabs(its));
+  }
+  return least < 1e300;
+}
+
 /// Void below `film_volume` is one of two things. The tip of a void that comes in from a neighbour, as when a body's
 /// corner slides over another body's face: its centroid says where it is, while least squares, which see straight
 /// bodies, lay it between them as a film. Or a film between two bodies that touch: its centroid is what the errors of
@@ -229,7 +281,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &fi
   if (may_be_tip)
   {
     RemovalPlan const tip = partedPlan(field, components, tips, bestPlan(field, components, tips));
-    if (tip.error <= least_miss * least_miss * volume * volume && tip.error < plan.error)
+    if (tip.error <= least_miss * least_miss * volume * volume && tip.error < plan.error &&
+        !voidIsAcross(field, components, tip, open_volume))
       return tip;
   }
   return filmPlan(field, components, films, plan, error);
