@@ -110,9 +110,7 @@ struct ConstraintReport
 /// \param bodies_n   Rigid bodies with the velocities before the cycle.
 /// \param bodies     In: predicted velocities. Out: v^{n+1/2}. Poses are not changed.
 /// \param dt         Of the cycle [s]
-/// \param kick       For which forces act, from v^{n-1/2} to v^{n+1/2} (predictVelocities); of penalty and Nitsche
-/// alone
-///                   [s]
+/// \param kick       Time for which the forces of penalty and Nitsche act, from v^{n-1/2} to v^{n+1/2} [s]
 /// \param pair_stress num_pairs: Cauchy stress xx, yy, xy [Pa]; Nitsche's method alone reads it
 /// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
 /// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.

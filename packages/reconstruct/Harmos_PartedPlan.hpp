@@ -228,7 +228,7 @@ KOKKOS_INLINE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellC
     return false;
   Vector2 const own = open[0] + components.momentsOf(open).centroid();
   double const side = dot(line.normal, own) - line.offset;
-  double least = 1e300;
+  bool some = false;
   Rows const &neighbours = field.mesh.cell_neighbour;
   for (int n = neighbours.offset(components.cell); n < neighbours.offset(components.cell + 1); ++n)
   {
@@ -237,12 +237,11 @@ KOKKOS_INLINE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellC
       continue;
     CellComponents const there = cellComponents(field, cell, true);
     Vector2 const centroid = components.toUnit(there.fromUnit(there.centroid[there.count - 1]));
-    double const its = dot(line.normal, centroid) - line.offset;
-    if (its * side > 0.0)
+    if ((dot(line.normal, centroid) - line.offset) * side > 0.0)
       return false;
-    least = Math::min(least, Math::fabs(its));
+    some = true;
   }
-  return least < 1e300;
+  return some;
 }
 
 /// Void below `film_volume` is one of two things. The tip of a void that comes in from a neighbour, as when a body's
