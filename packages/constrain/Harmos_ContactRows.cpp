@@ -33,7 +33,8 @@ struct RowBuilder
   NodeMaterialPairs dof_nodes;
   FilledRegions regions;
   SegmentBearing bearing;
-  View<InterfaceSegment *> segment;
+  InterfaceSegments segments;
+  View<InterfaceSegment *> segment; // theirs
   View<RayHit *> hit;
   FacingSegments facing;
   BodyTable bodies;
@@ -41,7 +42,6 @@ struct RowBuilder
   View<Bond *> bond;
   ConstraintOptions options;
   SegmentBins bins;
-  int num_segments;
   Motion before;
   double dt;
 
@@ -228,7 +228,7 @@ struct RowBuilder
     for (; two.count < 2; ++two.count)
     {
       InterfaceSegment const s = halfOf(segment(i), two.count);
-      RayHit const to = castRay(mesh, segment, num_segments, bins, s, i);
+      RayHit const to = castRay(mesh, segments, bins, s, i);
       if (to.segment < 0 || segment(to.segment).material != segment(hit(i).segment).material)
         return;
       Vector2 const n = rowNormal(s, to.segment);
@@ -288,21 +288,6 @@ struct RowBuilder
     }
   }
 
-  /// First segment of a cell, or where it would be.
-  KOKKOS_INLINE_FUNCTION int firstOfCell(int cell) const
-  {
-    int low = 0, high = num_segments;
-    while (low < high)
-    {
-      int const middle = (low + high) / 2;
-      if (segment(middle).cell < cell)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-    return low;
-  }
-
   /// Length of the segment between the same materials that goes on beyond the cell face on which an end of segment a
   /// lies, where it is too short for a row and shares its traction; else zero.
   KOKKOS_INLINE_FUNCTION double shortBeyond(InterfaceSegment const &a, InterfaceSegment const &b,
@@ -316,7 +301,7 @@ struct RowBuilder
       if (beyond < 0 || !isOnFace(q, k, end))
         continue;
       int const cell = beyond / 4;
-      for (int i = firstOfCell(cell); i < num_segments && segment(i).cell == cell; ++i)
+      for (int i = segments.firstOf(cell); i < segments.count && segment(i).cell == cell; ++i)
       {
         InterfaceSegment const &s = segment(i);
         if (s.material != a.material || hit(i).segment < 0)
@@ -443,6 +428,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                            dof_nodes,
                            regions,
                            {options.short_segments, options.shortest_segment, options.placement},
+                           segments,
                            segments.segment,
                            hit,
                            facingSegments(segments.segment, hit, bins, work),
@@ -451,7 +437,6 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                            work.copyOf("Harmos::constrain::bond", bonds),
                            options,
                            bins,
-                           segments.count,
                            before,
                            dt};
   View<PlannedRows *> const planned = work.unset<PlannedRows *>("Harmos::constrain::planned", segments.count);

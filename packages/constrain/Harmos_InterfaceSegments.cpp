@@ -382,6 +382,9 @@ InterfaceSegments findInterfaceSegments(Mesh const &mesh, CellMaterialPairs cons
     throw std::runtime_error("interface segments: " + std::to_string(most) + " in one cell, at most " +
                              std::to_string(max_cell_segments));
   result.segment = finder.segment;
+  result.num_cells = num_visited;
+  result.cell = visited;
+  result.first = first;
   return result;
 }
 

@@ -41,6 +41,22 @@ struct InterfaceSegments
 {
   int count = 0;
   View<InterfaceSegment *> segment; // count, and some room
+  int num_cells = 0;                // that were looked at
+  View<int *> cell;                 // ascending; num_cells, and some room
+  View<int *> first;                // num_cells: first segment of each
+
+  /// First segment of a cell; `count` where it was not looked at. Of a cell without segments: of another one.
+  KOKKOS_INLINE_FUNCTION int firstOf(int wanted) const
+  {
+    int at = 0;
+    for (int left = num_cells; left > 1;)
+    {
+      int const half = left / 2;
+      at += cell(at + half) <= wanted ? half : 0;
+      left -= half;
+    }
+    return num_cells > 0 && cell(at) == wanted ? first(at) : count;
+  }
 };
 
 /// The boundaries of the filled regions: interface edges inside mixed cells, and the exposed parts of cell faces, which

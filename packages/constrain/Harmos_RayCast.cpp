@@ -8,11 +8,9 @@ View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, Seg
                         WorkArrays const &work)
 {
   View<RayHit *> const hit = work.unset<RayHit *>("Harmos::constrain::hit", segments.count);
-  View<InterfaceSegment *> const segment = segments.segment;
-  int const count = segments.count;
   launchFor(
       "Harmos::constrain::castRays", segments.count,
-      KOKKOS_LAMBDA(int i) { hit(i) = castRay(mesh, segment, count, bins, segment(i), i); });
+      KOKKOS_LAMBDA(int i) { hit(i) = castRay(mesh, segments, bins, segments.segment(i), i); });
   return hit;
 }
 

@@ -121,18 +121,23 @@ KOKKOS_INLINE_FUNCTION bool liesWithin(Mesh const &mesh, int cell, Vector2 const
 }
 
 /// The normal ray of a segment's point. \param from Segment `number`, or a part of it.
-KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, View<InterfaceSegment *> const &segment, int count,
-                                      SegmentBins const &bins, InterfaceSegment const &from, int number)
+KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, InterfaceSegments const &segments, SegmentBins const &bins,
+                                      InterfaceSegment const &from, int number)
 {
   Ray ray(from);
-  int const cell = from.cell;
+  View<InterfaceSegment *> const &segment = segments.segment;
+  int const cell = from.cell, count = segments.count;
   if (from.material < 0)
     return ray.hit;
-  // The own cell's segments first: where the interface is shared the ray ends at once.
+  // The own cell's segments first, and those across the face on which it lies: where the interface is shared the ray
+  // ends at once.
   constexpr double shared = 1e-10; // apart, of the cell
   for (int to = number - 1; to >= 0 && segment(to).cell == cell; --to)
     ray.offer(mesh, segment(to), to);
   for (int to = number + 1; to < count && segment(to).cell == cell; ++to)
+    ray.offer(mesh, segment(to), to);
+  int const face = from.face >= 0 ? mesh.face_neighbour(cell, from.face) : -1; // of the cell across
+  for (int to = face >= 0 ? segments.firstOf(face / 4) : count; to < count && segment(to).cell == face / 4; ++to)
     ray.offer(mesh, segment(to), to);
   if (ray.hit.segment >= 0 && ray.nearest <= shared * from.cell_size)
     return ray.hit;

@@ -34,7 +34,10 @@ struct RigidBody
     return velocity + angular_velocity * perpendicular(x - centre);
   }
   KOKKOS_INLINE_FUNCTION double inverseMass() const { return motion == RigidMotion::Free ? 1.0 / mass : 0.0; }
-  KOKKOS_INLINE_FUNCTION double inverseInertia() const { return motion == RigidMotion::Free && !axial ? 1.0 / inertia : 0.0; }
+  KOKKOS_INLINE_FUNCTION double inverseInertia() const
+  {
+    return motion == RigidMotion::Free && !axial ? 1.0 / inertia : 0.0;
+  }
 };
 
 } // namespace Harmos

@@ -66,7 +66,20 @@ class LaneCompressor
 public:
   int count = 0; // of the lanes that are set
 
-#ifdef HARMOS_LANE_PERMUTATION
+#if defined(HARMOS_VECTOR_TYPES) && defined(__AVX512F__)
+  KOKKOS_FORCEINLINE_FUNCTION explicit LaneCompressor(unsigned lanes)
+      : count(__builtin_popcount(lanes)), lanes_(static_cast<unsigned char>(lanes))
+  {
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Pack operator()(Pack const &p) const
+  {
+    return Pack((Pack::Lanes)__builtin_ia32_compressdf512_mask(p.lanes, Pack::Lanes{}, lanes_));
+  }
+
+private:
+  unsigned char lanes_;
+#elif defined(HARMOS_LANE_PERMUTATION)
   KOKKOS_FORCEINLINE_FUNCTION explicit LaneCompressor(unsigned lanes)
       : count(__builtin_popcount(lanes)), from_(Detail::front_lanes.from[lanes])
   {

@@ -56,7 +56,7 @@ void addMesh(ParameterList &mesh)
 
 void addState(ParameterList &list, std::string const &whose)
 {
-  add(list, "density", 0.0, optional(number(positive, "kg/m^3"), "of the law"), "density of " + whose);
+  add(list, "density", 0.0, optional(number(plausible_density, "kg/m^3"), "of the law"), "density of " + whose);
   add(list, "internal_energy", 0.0, optional(number(any, "J/kg"), "of the law"),
       "internal energy of " + whose + ", per mass; not together with pressure");
   add(list, "pressure", 0.0, optional(number(any, "Pa"), "follows from density and energy"),

@@ -114,7 +114,7 @@ void addMaterials(ParameterList &materials)
   add(list, "eos", std::string(), required(choice({"stiffened", "mie-gruneisen", "tillotson", "ideal gas", "rigid"})),
       "stiffened: p = c0^2 (rho - rho0) + gruneisen rho (e - e0); mie-gruneisen: Hugoniot Us = c0 + slope up; "
       "tillotson: solid to vapour; ideal gas: p = (gamma - 1) rho e; rigid: moves as a rigid body");
-  add(list, "density", 0.0, required(number(positive, "kg/m^3")), "reference density rho0");
+  add(list, "density", 0.0, required(number(plausible_density, "kg/m^3")), "reference density rho0");
   for (char const *eos : {"stiffened", "mie-gruneisen", "tillotson"})
   {
     ParameterList &solid = list.sublist(std::string("eos = ") + eos);

@@ -21,6 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 KeyRange const any{};
 KeyRange const positive{0.0, infinity, true, false};
 KeyRange const not_negative{0.0, infinity, false, false};
+KeyRange const plausible_density{1e-30, 1e30, false, false}; // products of masses and their inverses keep their digits
 
 inline KeyRange between(double min, double max)
 {

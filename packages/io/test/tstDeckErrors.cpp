@@ -81,7 +81,8 @@ TEST(DeckErrors, MissingKey_saysWhatIsExpected)
 TEST(DeckErrors, WrongType_showsValueAndExpectation)
 {
   EXPECT_EQ(message({"materials/copper/density=heavy"}),
-            "deck.yaml: materials/copper/density: \"heavy\" is of the wrong type; expected: number > 0 [kg/m^3]");
+            "deck.yaml: materials/copper/density: \"heavy\" is of the wrong type; expected: number in [1e-30, 1e+30] "
+            "[kg/m^3]");
   EXPECT_EQ(message({"mesh/x/cells=4.5"}), "deck.yaml: mesh/x/cells: 4.5 is of the wrong type; expected: integer >= 1");
   EXPECT_EQ(message({"title=5"}),
             "deck.yaml: title: 5 is of the wrong type; expected: text of one line, ASCII, without # and backslash");
@@ -105,7 +106,9 @@ TEST(DeckErrors, KeyWithoutValue_saysSo)
 TEST(DeckErrors, ImpossibleValue_showsTheRange)
 {
   EXPECT_EQ(message({"materials/copper/density=-1"}),
-            "deck.yaml: materials/copper/density: -1 is out of range; expected: number > 0 [kg/m^3]");
+            "deck.yaml: materials/copper/density: -1 is out of range; expected: number in [1e-30, 1e+30] [kg/m^3]");
+  EXPECT_STARTS(message({"materials/copper/density=1e-300"}),
+                "deck.yaml: materials/copper/density: 1e-300 is out of range; expected: number in [1e-30, 1e+30]");
   EXPECT_EQ(message({"numerics/courant=1.5"}),
             "deck.yaml: numerics/courant: 1.5 is out of range; expected: number in (0, 1)");
   EXPECT_EQ(message({"numerics/remap/order=4"}),
