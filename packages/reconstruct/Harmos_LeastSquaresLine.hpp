@@ -15,6 +15,8 @@ struct LeastSquaresLine
   bool converged; // false: the search for the angle met its bound (the volume is exact all the same)
 };
 
+constexpr double open_volume = 1e-2; // of a cell: its void tells where that of its neighbour comes in
+
 namespace Detail
 {
 
@@ -45,6 +47,8 @@ struct LineMisfit
 
 struct LineFitProblem
 {
+  static constexpr double least_misfit = 1e-31; // is as good as none
+
   CellNeighbours const &neighbours;
   Region const &polygon; // the part of the own cell that is divided
   double inside_volume, outside_volume;
@@ -66,6 +70,40 @@ struct LineFitProblem
   KOKKOS_INLINE_FUNCTION Pack fraction(int p) const
   {
     return p < CellNeighbours::stored_packs ? stored[p] : turned(neighbours.values(set, p), p);
+  }
+
+  /// \param behind Parts of the neighbours behind the line; \param rate Their derivatives; out: those of the residuals.
+  KOKKOS_FORCEINLINE_FUNCTION Pack residual(int p, Pack const &behind, Pack &) const { return behind - fraction(p); }
+};
+
+/// What is neither inside nor outside may lie on either side of the line: the inside's fractions are the least that may
+/// lie behind it, what the outside's leave the most.
+struct BoundedFitProblem : LineFitProblem
+{
+  static constexpr double least_misfit = 1e-10; // many lines keep to the bounds
+
+  FractionDifference outside;
+  Pack stored_most[CellNeighbours::stored_packs];
+
+  KOKKOS_INLINE_FUNCTION BoundedFitProblem(LineFitProblem const &of_inside, FractionDifference const &its_outside,
+                                           NeighbourValues const &given)
+      : LineFitProblem(of_inside), outside(its_outside)
+  {
+    for (int p = 0; p < Math::min(neighbours.packs(), CellNeighbours::stored_packs); ++p)
+      stored_most[p] = neighbours.present(p) - given.stored[p];
+  }
+
+  KOKKOS_INLINE_FUNCTION Pack most(int p) const
+  {
+    return p < CellNeighbours::stored_packs ? stored_most[p] : neighbours.present(p) - neighbours.values(outside, p);
+  }
+
+  KOKKOS_INLINE_FUNCTION Pack residual(int p, Pack const &behind, Pack &rate) const
+  {
+    Pack const zero = 0.0, over_least = behind - fraction(p), over_most = behind - most(p);
+    Pack const r = select(over_least < zero, over_least, select(over_most > zero, over_most, zero));
+    rate = select(r == zero, zero, rate);
+    return r;
   }
 };
 
@@ -126,7 +164,8 @@ KOKKOS_INLINE_FUNCTION InsidePart insidePart(NeighbourPack const &quad, Vector2 
   return part;
 }
 
-KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vector2 const &normal)
+template <class Problem>
+KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(Problem const &problem, Vector2 const &normal)
 {
   bool const cut_inside = problem.inside_volume <= problem.outside_volume;
   AreaWeight const weight = problem.neighbours.weight();
@@ -140,8 +179,8 @@ KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(LineFitProblem const &problem, Vect
     NeighbourPack const &quad = problem.neighbours.pack(p, spare);
     InsidePart const part = insidePart(quad, normal, middle, weight);
     Pack const per_volume = quad.present / quad.volume;
-    Pack const residual = part.volume * per_volume - problem.fraction(p);
-    Pack const rate = part.rate * per_volume;
+    Pack rate = part.rate * per_volume;
+    Pack const residual = problem.residual(p, part.volume * per_volume, rate);
     value += residual * residual;
     gradient += rate * residual;
     hessian += rate * rate;
@@ -172,7 +211,8 @@ struct AngleBracket
 /// Until two slopes of different sign enclose a minimum, every step lowers the misfit and steps grow where the slope
 /// hardly falls (where no straight line fits, Gauss-Newton alone creeps); from then on they stay inside, by bisection
 /// where the secant is slow.
-KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, Vector2 const &start)
+template <class Problem>
+KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(Problem const &problem, Vector2 const &start)
 {
   constexpr int max_iterations = 100; // a dozen to the bracket, 33 halvings of it, and what the secant tries between
   constexpr double least_curvature = 0.1; // of the secant, of Gauss-Newton's: below it the latter is taken
@@ -185,7 +225,7 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(LineFitProblem const &problem, 
   bool slow = false;
   for (int i = 0; i < max_iterations; ++i)
   {
-    if (!(now.hessian > 0.0) || now.value <= 1e-31)
+    if (!(now.hessian > 0.0) || now.value <= Problem::least_misfit)
       return {normal, now.value, true};
     bracket.add(angle, now.gradient);
     double step = Math::clamp(-stretch * now.gradient / curvature, -longest_step, longest_step);
@@ -233,6 +273,17 @@ KOKKOS_INLINE_FUNCTION bool othersNear(ReconstructionField const &field, CellCom
   return false;
 }
 
+/// Whether some neighbour holds enough void to tell where that of this cell comes in.
+KOKKOS_INLINE_FUNCTION bool isOpenNear(ReconstructionField const &field, CellComponents const &components)
+{
+  ComponentSet const open = components.setOfMaterial(void_material);
+  Rows const &neighbours = field.mesh.cell_neighbour;
+  for (int n = neighbours.offset(components.cell); n < neighbours.offset(components.cell + 1); ++n)
+    if (setFraction(field, components, open, neighbours.item(n)) >= open_volume)
+      return true;
+  return false;
+}
+
 } // namespace Detail
 
 /// A line whose continuation into the vertex neighbours reproduces their volume fractions best, with exact volume in
@@ -242,7 +293,11 @@ KOKKOS_INLINE_FUNCTION bool othersNear(ReconstructionField const &field, CellCom
 /// least-squares gradient; straight interfaces are exact. Where a third component is near, the inside's fractions and
 /// the outside's tell different stories (a thin void between two bodies has no gradient of its own, but the body
 /// behind it has): both are fitted and the lower misfit wins; where both fits are poor, they start once more from the
-/// fallback.
+/// fallback. Where these are poor too, and the line parts a body from void that comes in from a neighbour, in what a
+/// third component has left, what is neither inside nor outside may lie on either side: the inside's fraction is then
+/// the least, the rest of the outside's the most that may lie behind the line. (Between two blocks that part on a third
+/// one a strip of void comes down, whose end in the cell of one block's corner is bounded by that block's face: neither
+/// is the void a half-plane nor the block, but the other block may lie where it does.)
 ///
 /// \param polygon  Of the own cell, what is left to divide (unit coordinates).
 /// \param inside, outside Disjoint sets of components that fill the polygon.
@@ -276,6 +331,22 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
       if (line.misfit < best.misfit)
         best = line;
     }
+  ComponentSet const open = components.setOfMaterial(void_material);
+  bool const of_void = (inside == open || outside == open) && (inside | outside) != components.all();
+  if (best.misfit > poor_misfit && of_void && Detail::isOpenNear(field, components))
+  {
+    FractionDifference const in{inside, 0u}, out{outside, 0u};
+    Detail::LineFitProblem of_inside{neighbours, polygon, inside_volume, outside_volume, in, true, {}};
+    of_inside.store(NeighbourValues(field, components, neighbours, in));
+    Detail::BoundedFitProblem const problem(of_inside, out, NeighbourValues(field, components, neighbours, out));
+    for (int start = 0; start < 2 && best.misfit > 0.0; ++start)
+    {
+      LeastSquaresLine const line = Detail::fitAngle(problem, start == 0 ? best.normal : fallback);
+      converged = converged && line.converged;
+      if (line.misfit < best.misfit)
+        best = line;
+    }
+  }
   best.converged = converged;
   return best;
 }

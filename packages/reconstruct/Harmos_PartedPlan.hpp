@@ -198,9 +198,8 @@ KOKKOS_INLINE_FUNCTION bool mayBeFilm(CellComponents const &components, double s
 ///
 /// A tip of void comes in from there. Overlaps along the line between the bodies move the centroid of 1e-5 of the cell
 /// by a part of the cell: void took the corner of the one that goes on below, though it is the other that ends.
-/// \param open_volume Void of a neighbour that tells, of the cell.
 KOKKOS_INLINE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellComponents const &components,
-                                         RemovalPlan const &plan, double open_volume)
+                                         RemovalPlan const &plan)
 {
   if (components.count != 3 || components.material[2] != void_material || plan.parted || plan.corner || plan.apart ||
       plan.filmed)
@@ -256,17 +255,12 @@ KOKKOS_INLINE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellC
 KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &field, CellComponents const &components,
                                                    SliverBounds const &films, RemovalPlan const &plan)
 {
-  constexpr double open_volume = 1e-2;                 // void of a neighbour, of the cell
   constexpr double least_miss = 0.1, most_miss = 30.0; // of the void's volume
   int const last = components.count - 1;
   double const volume = components.volume[last];
   if (!mayBeFilm(components, films.of_body) || plan.error <= removal_tie)
     return plan;
-  Rows const &neighbours = field.mesh.cell_neighbour;
-  double most_open = 0.0;
-  for (int n = neighbours.offset(components.cell); n < neighbours.offset(components.cell + 1); ++n)
-    most_open = Math::max(most_open, setFraction(field, components, 1u << last, neighbours.item(n)));
-  bool const may_be_tip = most_open >= open_volume;
+  bool const may_be_tip = Detail::isOpenNear(field, components);
   if (!may_be_tip && components.count != 4)
     return plan;
   SliverBounds tips = films;
@@ -281,7 +275,7 @@ KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &fi
   {
     RemovalPlan const tip = partedPlan(field, components, tips, bestPlan(field, components, tips));
     if (tip.error <= least_miss * least_miss * volume * volume && tip.error < plan.error &&
-        !voidIsAcross(field, components, tip, open_volume))
+        !voidIsAcross(field, components, tip))
       return tip;
   }
   return filmPlan(field, components, films, plan, error);

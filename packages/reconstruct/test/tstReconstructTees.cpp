@@ -167,6 +167,51 @@ TEST(ReconstructTees, voidThatComesInAboveABar_takesNoChipOutOfIt)
   EXPECT_GT(area(intersection(bar, chip)), 0.9 * area(whole));
 }
 
+// Two blocks part on a bar along the diagonals of cells: void of 1e-5 of the cell at the corner of the right one, which
+// comes in between them from the cells above. A film between block and bar would be closed by what presses on them, and
+// the block would follow its neighbour. Its centroid, beside the cell, tells no place.
+//
+//   | 1 |v| 2 |
+//   |---+-+---|
+//   |    0    |
+TEST(ReconstructTees, voidThatComesInBetweenBlocks_staysAtTheirCorners)
+{
+  Mesh const mesh = makeMesh(7, 7, 1.0);
+  int const cell = 3 * 7 + 3;
+  Vector2 const node{3.0, 3.0}, along = halfPlane(45.0, node).normal, away{-0.3, -0.3};
+  double farthest = 0.0;
+  for (double const lost : {3e-6, 1e-5, 1e-4})
+  {
+    Plane2 const base = halfPlane(135.0, {3.0, 3.002});
+    std::vector<Body> const all{{base},
+                                {opposite(base), halfPlane(45.0, node - 0.03 * along)},
+                                {opposite(base), halfPlane(225.0, node + 0.03 * along)}};
+    CellFills const straight = bodies(all), without_void = bodies({{base}, {opposite(base)}});
+    Scene const scene = paint(mesh,
+                              [&](int where, Quadrilateral const &quad)
+                              {
+                                if (where != cell)
+                                  return straight(where, quad);
+                                std::vector<Fill> fills = without_void(where, quad);
+                                Fill &block = fills.back();
+                                block.material = 2;
+                                double const left = block.volume - lost;
+                                block.centroid = (1.0 / left) * (block.volume * block.centroid - lost * (node + away));
+                                block.volume = left;
+                                return fills;
+                              });
+    FilledRegions const regions = reconstructed(scene, 1e-6);
+    Region const &block = onHost(regions.polygon)(onHost(regions.cell_region)(cell) + 1);
+    double nearest = 2.0; // of its corners on the bar
+    for (int v = 0; v < block.size; ++v)
+      if (std::fabs(dot(base.normal, block[v]) - base.offset) < 1e-9)
+        nearest = std::min(nearest, norm(block[v] - node));
+    farthest = std::max(farthest, nearest);
+    EXPECT_LT(nearest, 0.03) << lost;
+  }
+  std::printf("the block touches the bar from %.1e of a cell on\n", farthest);
+}
+
 // A bar's tip below block 2, beside a T: bodies that overlap elsewhere in the cell close a little of the block, and the
 // void that this leaves has no place. The tip is where its own centroid says, not what the block's and the void's
 // leave.
