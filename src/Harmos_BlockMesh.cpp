@@ -245,14 +245,13 @@ void refuseOverlaps(Deck const &deck, DeckMesh const &whole)
   std::array<int, 2> const found = overlappingCells(whole.mesh, whole.cell_body, part);
   if (found[0] < 0)
     return;
-  auto const nameOf = [&](int cell)
-  {
-    std::size_t const body = static_cast<std::size_t>(whole.cell_body[cell]);
-    return body < deck.bodies.size() ? deck.bodies[body].name : std::string("a contact wall");
-  };
+  auto const bodyOf = [&](int cell) { return static_cast<std::size_t>(whole.cell_body[cell]); };
+  auto const isWall = [&](int cell) { return bodyOf(cell) >= deck.bodies.size(); };
+  int const named = isWall(found[1]) ? 0 : 1; // two walls do not overlap
+  std::string const other = isWall(found[1 - named]) ? "a contact wall" : deck.bodies[bodyOf(found[1 - named])].name;
   auto const &x = whole.mesh.node[whole.mesh.cell[found[1]][0]];
-  throw DeckError("bodies/" + nameOf(found[1]) + ": overlaps " + nameOf(found[0]) + " at (" + std::to_string(x[0]) +
-                  ", " + std::to_string(x[1]) + ")");
+  throw DeckError("bodies/" + deck.bodies[bodyOf(found[named])].name + ": overlaps " + other + " at (" +
+                  std::to_string(x[0]) + ", " + std::to_string(x[1]) + ")");
 }
 
 } // namespace

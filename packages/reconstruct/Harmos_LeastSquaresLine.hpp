@@ -16,6 +16,7 @@ struct LeastSquaresLine
 };
 
 constexpr double open_volume = 1e-2; // of a cell: its void tells where that of its neighbour comes in
+constexpr double largest_tip = 0.3;  // of the cell: a body below may be a tip, with void along it (placingSet)
 
 namespace Detail
 {
@@ -333,7 +334,8 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField con
     }
   ComponentSet const open = components.setOfMaterial(void_material);
   bool const of_void = (inside == open || outside == open) && (inside | outside) != components.all();
-  if (best.misfit > poor_misfit && of_void && Detail::isOpenNear(field, components))
+  double const body = inside == open ? outside_volume : inside_volume;
+  if (best.misfit > poor_misfit && of_void && body > largest_tip && Detail::isOpenNear(field, components))
   {
     FractionDifference const in{inside, 0u}, out{outside, 0u};
     Detail::LineFitProblem of_inside{neighbours, polygon, inside_volume, outside_volume, in, true, {}};

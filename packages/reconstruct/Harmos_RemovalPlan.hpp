@@ -106,7 +106,7 @@ KOKKOS_INLINE_FUNCTION SliverBounds sliverBounds(ReconstructionField const &fiel
 KOKKOS_INLINE_FUNCTION ComponentSet placingSet(CellComponents const &components, SliverBounds const &slivers,
                                                Region const &polygon, ComponentSet set, double volume, double rest)
 {
-  constexpr double largest_tip = 0.3, longest_line = 0.7; // of the cell, of its side
+  constexpr double longest_line = 0.7; // of the cell's side
   ComponentSet const open = components.setOfMaterial(void_material), tip = set & ~open;
   bool const one_body = tip != 0u && (tip & (tip - 1u)) == 0u;
   double const own = components.volumeOf(tip);
