@@ -145,9 +145,7 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
 KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Motion const &before, double dt)
 {
   double const start = dot(row.normal, relativeVelocity(row, before.velocity, before.bodies));
-  double const gap_rate = row.opening() / dt;
-  return relative + row.restitution * (start < 0.0 ? start : Math::min(start, gap_rate)) +
-         (start < 0.0 ? 0.0 : (1.0 - row.restitution) * gap_rate);
+  return relative + row.restitution * start + (start < 0.0 ? 0.0 : (1.0 - row.restitution) * row.opening() / dt);
 }
 
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.
