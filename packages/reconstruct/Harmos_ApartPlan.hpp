@@ -34,6 +34,14 @@ KOKKOS_INLINE_FUNCTION Region regionAlone(CellComponents const &components, Remo
   return divide(one.inside, plan.normal[2 * body + 1], volume, beyond, components.weight).inside;
 }
 
+/// How a body that is drawn alone has the centroid that it should have.
+enum class DrawnAlone
+{
+  Exact, // to 1e-4 of the smaller of body and rest
+  Bent,  // to 2e-3 of it, as curved edges of five cells' radius do
+  Missed
+};
+
 /// Draw a body of a cell alone: by one straight line, or two that meet in a corner, where these leave its centroid.
 ///
 /// Tips below film_volume, whose centroids are less sure, may miss it by 0.02 of the cell; slivers are drawn by one
@@ -41,11 +49,11 @@ KOKKOS_INLINE_FUNCTION Region regionAlone(CellComponents const &components, Remo
 ///
 /// \param plan   Gets the body's normals and `open`; the squared miss of its first moment is added to `error`.
 /// \param region Out: the body's, in the cell's unit coordinates.
-/// \return Whether the centroid was met.
-KOKKOS_INLINE_FUNCTION bool drawAlone(ReconstructionField const &field, CellComponents const &components, int body,
-                                      SliverBounds const &slivers, RemovalPlan &plan, Region &region)
+/// \return How the centroid was met.
+KOKKOS_INLINE_FUNCTION DrawnAlone drawAlone(ReconstructionField const &field, CellComponents const &components,
+                                            int body, SliverBounds const &slivers, RemovalPlan &plan, Region &region)
 {
-  constexpr double exact = 1e-4, tip_miss = 0.02, least_miss = 1e-8; // of the volume; of the cell
+  constexpr double exact = 1e-4, bent = 2e-3, tip_miss = 0.02, least_miss = 1e-8; // of the volume; of the cell
   CellComponents const c = alone(components, body);
   bool const body_is_smaller = c.volume[0] <= c.volume[1];
   int const smaller = body_is_smaller ? 0 : 1;
@@ -60,7 +68,7 @@ KOKKOS_INLINE_FUNCTION bool drawAlone(ReconstructionField const &field, CellComp
     plan.unfinished += cut.converged ? 0 : 1;
     plan.normal[2 * body] = cut.normal;
     region = regionAlone(components, plan, body);
-    return true;
+    return DrawnAlone::Exact;
   }
   MomentOfFluidLine const line = momentOfFluidLine(c.polygon, volume, c.centroid[smaller], c.weight);
   plan.unfinished += line.converged ? 0 : 1;
@@ -80,7 +88,28 @@ KOKKOS_INLINE_FUNCTION bool drawAlone(ReconstructionField const &field, CellComp
   plan.error += error;
   region = regionAlone(components, plan, body);
   double const miss = Math::max((components.volume[body] < film_volume ? tip_miss : exact) * volume, least_miss);
-  return error <= miss * miss;
+  return error <= miss * miss                         ? DrawnAlone::Exact
+         : error <= (bent * volume) * (bent * volume) ? DrawnAlone::Bent
+                                                      : DrawnAlone::Missed;
+}
+
+/// Whether no point of one convex region is nearer than `least` to another's: a line at an edge of one parts them.
+KOKKOS_INLINE_FUNCTION bool clearOf(Region const &a, Region const &b, double least)
+{
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    Region const &own = pass == 0 ? a : b, &other = pass == 0 ? b : a;
+    for (int i = 0; i < own.size; ++i)
+    {
+      Vector2 const along = own[own.next(i)] - own[i];
+      double nearest = 1e300;
+      for (int j = 0; j < other.size; ++j)
+        nearest = Math::min(nearest, cross(other[j] - own[i], along));
+      if (nearest > least * norm(along))
+        return true;
+    }
+  }
+  return false;
 }
 
 /// Bodies and void that the given plan does not leave as they are: where each of them, drawn as if it were alone in the
@@ -88,13 +117,15 @@ KOKKOS_INLINE_FUNCTION bool drawAlone(ReconstructionField const &field, CellComp
 ///
 /// Corners of two bodies that pass each other at a distance share cells with void both between them and beyond. All
 /// other plans have bodies meet somewhere where void is not all between them; so they touched, and felt each other
-/// through a tenth of a cell of void. Matter that has flowed has no straight edges: its cells are left to the other
-/// plans.
+/// through a tenth of a cell of void. Bodies with bent edges count where their regions keep 0.01 cells away from each
+/// other: what bends is a chord to some thousandths of a cell. Matter that has flowed has no straight edges: its cells
+/// are left to the other plans.
 KOKKOS_INLINE_FUNCTION RemovalPlan apartPlan(ReconstructionField const &field, CellComponents const &components,
                                              SliverBounds const &slivers, RemovalPlan const &given)
 {
   constexpr double much_better = 0.1;     // of the given plan's error
   constexpr double least_overlap = 1e-13; // of the cell
+  constexpr double clear = 0.01;          // of the cell's side
   int const bodies = components.count - 1;
   if (bodies < 2 || bodies > RemovalPlan::most_apart || components.material[bodies] != void_material ||
       given.error <= removal_tie)
@@ -107,12 +138,17 @@ KOKKOS_INLINE_FUNCTION RemovalPlan apartPlan(ReconstructionField const &field, C
   plan.parted = plan.corner = plan.filmed = false;
   plan.error = 0.0;
   Region region[RemovalPlan::most_apart];
+  bool bent = false;
   for (int k = 0; k < bodies; ++k)
   {
-    if (!drawAlone(field, components, k, slivers, plan, region[k]))
+    DrawnAlone const drawn = drawAlone(field, components, k, slivers, plan, region[k]);
+    if (drawn == DrawnAlone::Missed)
       return given;
+    bent = bent || drawn == DrawnAlone::Bent;
     for (int j = 0; j < k; ++j)
     {
+      if (bent && !clearOf(region[j], region[k], clear))
+        return given;
       Region common;
       clipConvex(region[j], region[k], common);
       if (!common.empty() && area(common) > least_overlap)
