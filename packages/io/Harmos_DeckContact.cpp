@@ -84,8 +84,8 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
     breaks = breaks || law.strength.limited();
     interacts = interacts || law.kind != Interaction::Sliding;
   }
-  check.require(!breaks, path, "\"" + method + "\" knows no strength of a bond; expected: multipliers");
-  check.require(method == "nodal" || !interacts, path, "\"merged\" lets nothing slide; expected: interactions sliding");
+  check.require(!breaks, path, "\"" + method + "\" knows no strength of a bond; expected: multipliers | penalty | nitsche");
+  check.require(method == "nodal" || !interacts, path, "\"merged\" ties whatever shares a node; expected: no interactions");
 }
 
 } // namespace

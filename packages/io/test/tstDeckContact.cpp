@@ -103,7 +103,7 @@ TEST(DeckContact, whatHasNoMeaning_isRefused)
   expectRefused({open, "numerics/constraint/method=nodal"},
                 "deck.yaml: numerics/constraint/method: \"nodal\" knows no strength");
   expectRefused({open, "interactions={default: bonded}", "numerics/constraint/method=merged"},
-                "deck.yaml: numerics/constraint/method: \"merged\" lets nothing slide");
+                "deck.yaml: numerics/constraint/method: \"merged\" ties whatever shares a node");
   expectRefused(
       {"interactions={default: sliding}", "numerics/constraint/method=nodal", "boundaries/left={type: contact wall}"},
       "deck.yaml: boundaries/left/type: a contact wall has no nodes");
