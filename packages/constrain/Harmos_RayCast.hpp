@@ -79,6 +79,14 @@ struct Ray
     hit = {number, Math::max(distance, 0.0), -dot(from.normal, target.normal)};
   }
 
+  /// Whether a segment of the own body lies across the ray before what it meets.
+  KOKKOS_INLINE_FUNCTION bool isStoppedBy(BinnedSegment const &target) const
+  {
+    double distance;
+    return target.material == from.material && crossSegment(from.point, from.normal, target, distance) &&
+           distance >= 0.0 && distance < hit.gap;
+  }
+
   /// The segments at places i, i + 1, ... below `end` of the bins that `offer` may not turn down at once: a bit each.
   KOKKOS_FORCEINLINE_FUNCTION unsigned candidates(SegmentBins const &bins, int i, int end) const
   {
@@ -158,7 +166,12 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, InterfaceSegments const 
                             ray.offer(mesh, bins.item(i + lane), bins.item(i + lane).segment);
                       }
                     });
-  return ray.hit;
+  if (ray.hit.segment < 0 || ray.hit.gap <= shared * from.cell_size)
+    return ray.hit;
+  bool stopped = false; // by the other side of a crack in its own body
+  ray.box(0.52 * bins.size, low, high);
+  bins.forEach(low, high, [&](int, BinnedSegment const &target) { stopped = stopped || ray.isStoppedBy(target); });
+  return stopped ? RayHit{-1, 0.0, 0.0} : ray.hit;
 }
 
 /// Cast the normal ray of every segment of a material to the nearest facing segment of another material or wall, within
@@ -166,7 +179,8 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, InterfaceSegments const 
 /// cells alike.
 ///
 /// A facing surface behind the origin counts (gap 0) within round-off, and where the two cells share no node (blocks of
-/// a moving mesh that overlap slightly) down to deepest_overlap.
+/// a moving mesh that overlap slightly) down to deepest_overlap. A ray that meets its own body first, across a crack in
+/// it, meets nothing.
 View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, SegmentBins const &bins,
                         WorkArrays const &work = {});
 

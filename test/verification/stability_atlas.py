@@ -215,7 +215,7 @@ def measure(quick, jobs):
         return dict(zip(methods, pool.map(one, methods)))
 
 
-GOOD_AND_BAD = {"stable": (0.9, 0.3), "momentum": (3e-3, 0.3), "penetration": (0.05, 5.0), "iterations": (50.0, 1000.0), "energy": (1e-3, 0.3),
+GOOD_AND_BAD = {"stable": (0.9, 0.3), "T of three": (1e-6, 1e-2), "momentum": (3e-3, 0.3), "penetration": (0.05, 5.0), "iterations": (50.0, 1000.0), "energy": (1e-3, 0.3),
                 "deviation": (0.1, 1.0), "stress": (0.03, 0.5), "shear": (10.0, 0.1)}
 
 
@@ -305,12 +305,12 @@ def write(found, sections, folder):
     figure.savefig(folder / "stability-atlas.png", dpi=110)
 
 
-EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 at which two blocks under stored elastic energy, without any viscosity, never hold more kinetic energy than was stored, over 400 cycles; the interface
+EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 at which two blocks under stored elastic energy, without any viscosity, never hold more kinetic energy than was stored, by 5%, over 400 cycles; the interface
   lies the given part of a cell beyond a cell face (`decks/sliver.yaml`). The material alone (`single`) is stable at 0.999 too, the largest tried (decks take less than 1), and so are multipliers at midpoints and mortar multipliers at all seven cuts. 0: at none of them.
 - **stable Courant, density and stiffness**: the same where the right block is denser or stiffer by the factor, at a cut of 1e-4 of a cell.
 - **block**: `example/sliding_block`, 8 cells over the block, half a length of slip, the worst of three: at 0 degrees along a cell face and 0.17 cells beside it, and at 30 degrees: change of the momentum along the platens over m V; penetration (overlap of moved regions) summed over the run, in cells; iterations a cycle, mean and most;
   energy that contact took, or gave, over the energy at the start. Rigid platens give the rows' normals ([decision 0022](decisions/0022-rigid-surfaces-give-the-normal.md)), so that whatever slides keeps its momentum to round-off, whichever the method, where it does not fail. Slivers lie by their centroids; with `sliver: 1e-3` penalties and Nitsche fail beside the face and at 30 degrees too: light films gain energy.
-- **T of three blocks**: two blocks on a third that slides below them, all deformable and squeezed between platens (load 0.1 of a thousandth of the bulk modulus), at 15 degrees to the mesh: largest difference of the slider's momentum from that of body-fitted blocks, over m V.
+- **T of three blocks**: two blocks on a third that slides below them, all deformable and squeezed between platens (load 0.1 of a thousandth of the bulk modulus), at 15 degrees to the mesh: largest difference of the slider's momentum from that of body-fitted blocks, over m V (these gain 9.4e-7).
 - **uniform pressure**: two blocks under one pressure fill a closed box, their interface upright or at 20 degrees to the mesh: root mean square deviation of the segments' tractions from their mean, by length, over the pressure, cycles 31
   to 60 (exact: 0; [finer meshes](#tractions-against-resolution)). Rows, the stress of cut cells and the moved outlines speak of one change of volume there ([decision 0023](decisions/0023-one-change-of-volume.md)). Midpoints at 20 degrees owe what they have to a segment of 0.08 cells that ends at the wall; on the finer meshes there is none.
   **The same along cells' means**: with `numerics/cut_cell_stress: cell mean`, the force of a cut cell being volume fraction times the mean gradient of the whole cell, which a uniform traction on the cut does not balance.

@@ -57,6 +57,40 @@ TEST(InterfaceSegments, interfaceOnFaces_pureCellsExposeWholeFaces)
   }
 }
 
+// A film of void along a face inside body 0, above body 1, which the ray of the film's upper side would meet 0.7 cells
+// farther on: behind its own body. (Vital vertices shared a multiplier with such a row, and what touched bore nothing.)
+TEST(InterfaceSegments, rayFromACrackInItsBody_meetsNothingBehindIt)
+{
+  Body const cracked{0, [](Quadrilateral const &cell)
+                     {
+                       double const bottom = cell[0][1];
+                       Region const whole = wholeCell(cell);
+                       Region above, upper;
+                       clip(whole, Plane2{{0.0, -1.0}, -1.5}, above);
+                       if (bottom != 1.0)
+                         return above;
+                       clip(above, Plane2{{0.0, 1.0}, 2.0 - 1e-5}, upper);
+                       return upper;
+                     }};
+  TinyScene const scene(rectilinearMesh(uniform(3, 3), uniform(3, 3)), {cracked, boxBody(1, 0, 0, 3, 1.3)}, 2,
+                        open_box);
+  auto const s = segmentsOf(scene);
+  auto const hit = hitsOf(scene);
+  int faces = 0, upper_sides = 0;
+  for (std::size_t i = 0; i < s.size(); ++i)
+  {
+    if (s[i].material != 0 || s[i].normal[1] > -0.5)
+      continue;
+    bool const upper = s[i].midpoint[1] > 1.9;
+    (upper ? upper_sides : faces) += 1;
+    EXPECT_EQ(hit[i].segment >= 0, !upper) << s[i].midpoint[0] << ' ' << s[i].midpoint[1];
+    if (!upper)
+      EXPECT_NEAR(hit[i].gap, 0.2, 1e-12);
+  }
+  EXPECT_EQ(faces, 3);
+  EXPECT_EQ(upper_sides, 3);
+}
+
 // Cells are found once for the same arrays; who changes what a cell holds makes new ones.
 TEST(InterfaceSegments, keptCells_giveTheSameSegmentsUntilKindsComeInANewArray)
 {
