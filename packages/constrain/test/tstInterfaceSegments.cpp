@@ -85,7 +85,9 @@ TEST(InterfaceSegments, rayFromACrackInItsBody_meetsNothingBehindIt)
     (upper ? upper_sides : faces) += 1;
     EXPECT_EQ(hit[i].segment >= 0, !upper) << s[i].midpoint[0] << ' ' << s[i].midpoint[1];
     if (!upper)
+    {
       EXPECT_NEAR(hit[i].gap, 0.2, 1e-12);
+    }
   }
   EXPECT_EQ(faces, 3);
   EXPECT_EQ(upper_sides, 3);
