@@ -59,18 +59,21 @@ def test_a_corner_is_felt_when_it_touches_above_a_cell_a_face_or_a_node():
                 clean(r)
 
 
+def passes(side, end_time, one, two):
+    """What the second of two steel bodies in the open, which moves at 200 m/s, gives the first, over its momentum."""
+    r = harmos(DECKS / "gaps.yaml", {
+        "mesh": f"{{x: {side}, y: {side}}}", "boundaries/bottom": "{type: outflow}", "boundaries/top": "{type: outflow}", **NO_FIELDS, "run/end_time": end_time,
+        "bodies": f"{{one: {{material: steel, {one}}}, two: {{material: steel, {two}}}}}"})
+    return r, max(hypot(x, y) for x, y in zip(r["one.momentum_x"], r["one.momentum_y"])) / (r.first("two.mass") * 200.0)
+
+
 def passing(angle, gap, height):
     """A square slides past the face of a turned block, `gap` cells beside it, from below its lower corner to above its upper one."""
     c, s = cos(radians(angle)), sin(radians(angle))
-    across, along, speed = 0.1 + gap * H, -0.08, 200.0
-    side = "{from: 0.0, to: 0.6, cells: 60}"
-    r = harmos(DECKS / "gaps.yaml", {
-        "mesh": f"{{x: {side}, y: {side}}}", "boundaries/bottom": "{type: outflow}", "boundaries/top": "{type: outflow}", **NO_FIELDS, "run/end_time": 8e-4,
-        "bodies": f"{{one: {{material: steel, shape: rectangle, center: [0.3037, 0.3021], size: [0.1, {height}], angle: {angle}}}, "
-                  f"two: {{material: steel, shape: rectangle, center: [{0.3037 + across * c - along * s!r}, {0.3021 + across * s + along * c!r}], "
-                  f"size: [0.1, 0.1], angle: {angle}, velocity: [{-speed * s!r}, {speed * c!r}]}}}}"})
-    momentum = zip(r["one.momentum_x"], r["one.momentum_y"])
-    return r, max(hypot(x, y) for x, y in momentum) / (r.first("two.mass") * speed)
+    across, along = 0.1 + gap * H, -0.08
+    return passes("{from: 0.0, to: 0.6, cells: 60}", 8e-4, f"shape: rectangle, center: [0.3037, 0.3021], size: [0.1, {height}], angle: {angle}",
+                  f"shape: rectangle, center: [{0.3037 + across * c - along * s!r}, {0.3021 + across * s + along * c!r}], "
+                  f"size: [0.1, 0.1], angle: {angle}, velocity: [{-200.0 * s!r}, {200.0 * c!r}]")
 
 
 def test_bodies_that_pass_each_other_feel_nothing():
@@ -85,17 +88,13 @@ def test_bodies_that_pass_each_other_feel_nothing():
 
 
 def disc_passes(angle, gap, shift):
-    """A disc passes above the corner of a turned square, `gap` cells from it at the nearest; what it gives, over its momentum, and the rows."""
-    c, s, radius, speed, h = cos(radians(angle)), sin(radians(angle)), 0.12, 200.0, 0.025
+    """A disc passes above the corner of a turned square, `gap` cells from it at the nearest."""
+    c, s, radius, h = cos(radians(angle)), sin(radians(angle)), 0.12, 0.025
     x, y = 0.5 + shift[0] * h, 0.5 + shift[1] * h
     along, up = -0.1 - 0.09, 0.1 + radius + gap * h  # the corner at (-0.1, 0.1) of the square's own frame
-    side = "{from: 0.0, to: 1.0, cells: 40}"
-    r = harmos(DECKS / "gaps.yaml", {
-        "mesh": f"{{x: {side}, y: {side}}}", "boundaries/bottom": "{type: outflow}", "boundaries/top": "{type: outflow}", **NO_FIELDS, "run/end_time": 9e-4,
-        "bodies": f"{{one: {{material: steel, shape: rectangle, center: [{x!r}, {y!r}], size: [0.2, 0.2], angle: {angle}}}, "
-                  f"two: {{material: steel, shape: disc, center: [{x + along * c - up * s!r}, {y + along * s + up * c!r}], radius: {radius}, "
-                  f"velocity: [{speed * c!r}, {speed * s!r}]}}}}"})
-    return r, max(hypot(a, b) for a, b in zip(r["one.momentum_x"], r["one.momentum_y"])) / (r.first("two.mass") * speed)
+    return passes("{from: 0.0, to: 1.0, cells: 40}", 9e-4, f"shape: rectangle, center: [{x!r}, {y!r}], size: [0.2, 0.2], angle: {angle}",
+                  f"shape: disc, center: [{x + along * c - up * s!r}, {y + along * s + up * c!r}], radius: {radius}, "
+                  f"velocity: [{200.0 * c!r}, {200.0 * s!r}]")
 
 
 # Drawn as chords, discs of five cells' radius miss their centroids by 1e-4 to 7e-4 of them: the disc was not drawn apart from the corner, and of the

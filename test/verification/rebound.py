@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Restitution: what strikes parts with its part of the closing speed; with one, the impact takes no energy."""
 import pathlib
-from math import cos, radians, sin
 
+from contact_scenes import along, turned
 from harness import check, clean, harmos, run
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -40,16 +40,16 @@ def test_any_number_of_ranks_gives_the_same_rebound():
 
 def struck_block(angle, settings):
     """Part of the energy that contact takes of two elastic blocks, turned by an angle, whose flat sides strike."""
-    a, shift = radians(angle), (0.013, -0.021)
-    turned = lambda x, y, s=(0.0, 0.0): f"[{s[0] + x * cos(a) - y * sin(a)!r}, {s[1] + x * sin(a) + y * cos(a)!r}]"
+    shift = (0.013, -0.021)
     r = harmos(HERE / "decks" / "struck_block.yaml", {
-        "bodies/low/center": turned(0.0, -0.25, shift), "bodies/up/center": turned(0.15, 0.21, shift), "bodies/up/velocity": turned(0.0, -40.0),
+        "bodies/low/center": turned(0.0, -0.25, angle, shift), "bodies/up/center": turned(0.15, 0.21, angle, shift),
+        "bodies/up/velocity": turned(0.0, -40.0, angle),
         "bodies/low/angle": angle, "bodies/up/angle": angle, **settings})
     taken = r.last("contact_loss") / r.first("kinetic_energy")
-    bounced = r.last("up.momentum_x") / r.first("up.momentum_x") if angle else r.last("up.momentum_y") / r.first("up.momentum_y")
+    momentum = along(r, "up", angle + 90.0)
     assert r.summary["unconverged_cycles"] == 0
     clean(r)
-    return taken, bounced
+    return taken, momentum[-1] / momentum[0]
 
 
 # A surface that had opened, and whose void lay elsewhere in the cell, was stopped when the pressure brought it back: contact gave up to 0.6% of the

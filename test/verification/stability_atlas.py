@@ -215,8 +215,8 @@ def measure(quick, jobs):
         return dict(zip(methods, pool.map(one, methods)))
 
 
-GOOD_AND_BAD = {"stable": (0.9, 0.3), "T of three": (1e-6, 1e-2), "momentum": (3e-3, 0.3), "penetration": (0.05, 5.0), "iterations": (50.0, 1000.0), "energy": (1e-3, 0.3),
-                "deviation": (0.1, 1.0), "stress": (0.03, 0.5), "shear": (10.0, 0.1)}
+GOOD_AND_BAD = {"stable": (0.9, 0.3), "T of three": (1e-6, 1e-2), "momentum": (3e-3, 0.3), "penetration": (0.05, 5.0),
+                "iterations": (50.0, 1000.0), "energy": (1e-3, 0.3), "deviation": (0.1, 1.0), "stress": (0.03, 0.5), "shear": (10.0, 0.1)}
 
 
 def badness(column, value):
