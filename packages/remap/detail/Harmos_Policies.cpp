@@ -10,8 +10,9 @@ namespace
 {
 
 constexpr double full_tolerance = 1e-12; // of the cell: sums of fractions this near to one are made one
-constexpr double least_share = 1e-10;    // of the cell: what deformable material keeps where a rigid body covers it all
-constexpr double most_volume = 2.0;      // of the cell: what a pair's mass times its specific volume may be
+constexpr double least_share =
+    1e-10; // of the cell: what deformable material keeps at most where a rigid body covers it all
+constexpr double most_volume = 2.0; // of the cell: what a pair's mass times its specific volume may be
 
 struct FinishFunctor
 {
@@ -133,7 +134,7 @@ struct FinishFunctor
   KOKKOS_INLINE_FUNCTION double share(int index, int cell, double deformable, double rigid, bool &full) const
   {
     double const cell_volume = in.mesh.cell_volume(cell);
-    double const available = Math::max(cell_volume - rigid, deformable > 0.0 ? least_share * cell_volume : 0.0);
+    double const available = Math::max(cell_volume - rigid, Math::min(deformable, least_share * cell_volume));
     double const gap = available - deformable;
     bool const owned = in.mesh.cell_depth(cell) == 0;
     full = true;

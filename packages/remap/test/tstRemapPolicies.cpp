@@ -150,6 +150,28 @@ TEST(Policies, rigidBody_takesItsExactVolumeAndPushesNothingOut)
     EXPECT_EQ(result.state.velocity(dof, 0), 0.0);
 }
 
+/// What deformable material keeps in a cell that a rigid body covers is all of it, or 1e-10 of the cell.
+TEST(Policies, splinterInACellThatARigidBodyCovers_isKeptWithinTheCell)
+{
+  for (double const part : {5e-11, 1e-10, 2e-10})
+  {
+    Scene scene = sceneWithRigidBody(one);
+    scene.options.merge_below = 0.0;
+    scene.move(
+        [=](int material, Vector2 const &x) {
+          return Vector2{material == 0 && x[0] > 0.1 ? 0.1 + 0.25 * part : 0.0, 0.0};
+        });
+    RemapResult const result = scene.remapped();
+    EXPECT_LE(largestSumOfFractions(scene.mesh, result), 1.0);
+    for (int row = 0; row < 4; ++row)
+    {
+      int const cell = 4 * row + 2, pair = result.pairs.find(cell, 0);
+      ASSERT_GE(pair, 0);
+      EXPECT_NEAR(result.state.record(pair, VolumeFraction), std::min(part, 1e-10), 1e-15);
+    }
+  }
+}
+
 TEST(Policies, emptiedCell_losesItsPairAndDofNodes)
 {
   Scene scene = barWithSliver(0.005);
