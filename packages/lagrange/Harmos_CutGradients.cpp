@@ -107,14 +107,18 @@ struct CutGradientFunctor
     }
   }
 
-  /// How far a solid that fills this part of its cell has the gradient of what it fills, once fullness is counted.
-  KOKKOS_INLINE_FUNCTION double ownShare(int pair, Material const &material, double part, double full) const
+  /// How far a solid that fills this part of a cell of several materials has the gradient of what it fills.
+  KOKKOS_INLINE_FUNCTION double ownShare(int pair, Material const &material, double filled, double part,
+                                         double full) const
   {
     double const strain =
         Math::max(Math::fabs(material.density0 * record(pair, SpecificVolume) - 1.0), record(pair, PlasticStrain));
     double const intact = Math::clamp((worn_strain - strain) / (worn_strain - intact_strain), 0.0, 1.0);
     double const closed = Math::max(0.0, 1.0 - (1.0 - full) * most_void_of_full_cell / most_void_beside_tip);
-    return Math::max(intact * closed, Math::min(1.0, part / least_whole_part));
+    double const whole = Math::min(1.0, part / least_whole_part);
+    double const drift = Math::fabs(filled / (record(pair, Mass) * record(pair, SpecificVolume)) - 1.0);
+    double const drifted = Math::clamp((drift - borne_drift) / (most_drift - borne_drift), 0.0, 1.0);
+    return Math::max(full * Math::max(intact * closed, whole), drifted * intact * whole);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
@@ -129,9 +133,12 @@ struct CutGradientFunctor
       Material const &material = materials(pairs.material(pairs.offset(cell) + k));
       if (!actsOnFilledRegion(where, material))
         continue;
-      double const part = area(regions.polygon(first + k)) / mesh.cell_area(cell);
-      double const share =
-          actsInFullCells(where, material) ? full * ownShare(pairs.offset(cell) + k, material, part, full) : 1.0;
+      Region const &region = regions.polygon(first + k);
+      double share = 1.0;
+      if (actsInFullCells(where, material))
+        share = count < 2 ? 0.0
+                          : ownShare(pairs.offset(cell) + k, material, volume(region, mesh.geometry),
+                                     area(region) / mesh.cell_area(cell), full);
       store(first + k, cell, q, full, share);
       any = any || share > 0.0;
     }

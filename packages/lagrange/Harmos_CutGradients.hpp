@@ -53,6 +53,10 @@ constexpr double least_whole_part = 0.02;
 /// and from which it is worn; between them in proportion.
 constexpr double intact_strain = 0.05, worn_strain = 0.15;
 
+/// |V / (m s) - 1|, the volume V of a region against that of its mass m at its specific volume s, up to which an intact
+/// solid beside void keeps the gradient of its cell's mean, and from which it has its own; between them in proportion.
+constexpr double borne_drift = 0.003, most_drift = 0.01;
+
 /// Void, of the cell, beside which an intact tip is as a worn one; in proportion below.
 constexpr double most_void_beside_tip = 1e-3;
 
@@ -74,9 +78,13 @@ constexpr double most_void_beside_tip = 1e-3;
 /// In full cells alone (actsInFullCells) what is stored is the fullness w of the cell times that: the gradient is
 /// (1 - w) times the cell's mean and w times the region's, continuous where void opens. A region below
 /// least_whole_part of its cell that is worn (worn_strain), or beside void (most_void_beside_tip), has less of it, in
-/// proportion.
+/// proportion. Beside void, where w is none, the two volumes of a solid follow two gradients: V, which is moved, that
+/// of the region, s that of the cell, and relative velocities of the hourglass kind stretch the region without a
+/// stress (the toe of a block that sticks on an incline went to 0.75 of the density of its pressure, and slid on). So
+/// in cells of several materials an intact solid whose volumes have drifted apart (borne_drift, most_drift) has its own
+/// gradient beside void as well.
 ///
-/// \param record By pair (PairField): specific volume and plastic strain say what is worn.
+/// \param record By pair (PairField): specific volume and plastic strain say what is worn, with the mass what drifted.
 /// \param shortest_bent_edge Of the cell size; that of bendOf.
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.
 ///

@@ -322,7 +322,8 @@ SlowSums slowMarked(SlowLight const &slow, View<double *[2]> const &initial, Lag
         Vector2 const sum{initial(dof, 0) + after[0], initial(dof, 1) + after[1]};
         sums.energy_loss -= 0.5 * mass * (dot(change, sum) + dot(other, change));
         sums.limited += slowed;
-        if (!slowed)
+        // what a wall keeps a slowed node from taking is left to the pair's free ones; without those the wall takes it
+        if (!slowed || !(slow.pairMean(slow.slowed_with(dof)).free_mass > 0.0))
           sums.wall_impulse += mass * (change - wanted);
       },
       JoinReducer<SlowSums>(result));

@@ -153,6 +153,29 @@ TEST(LimitTravel, WallNodes_keepTheirConditionAndTheWallsShareIsBooked)
     }
 }
 
+TEST(LimitTravel, SplinterInACornerOfWalls_leavesThemWhatItsNodesCannotTake)
+{
+  // Its four nodes are all slowed, so that no free one takes up what the walls keep from the others.
+  Scene s = makeScene(
+      3, 3, 0.0, {elastic()},
+      [](int i, int j) {
+        return i == 0 && j == 0 ? std::vector<Fill>{{0, 1e-6}} : std::vector<Fill>{};
+      },
+      Kinematics::Xfem, std::vector<BoundaryKind>(4, BoundaryKind::SlipWall));
+  s.setVelocity([](int, Vector2 x) { return Vector2{x[0] > 0.0 ? 8.0 : 0.0, x[1] > 0.0 ? 5.0 : 0.0}; });
+  Kokkos::deep_copy(s.work.half, s.state.velocity);
+  Kokkos::deep_copy(s.work.predicted, s.state.velocity);
+  auto const before = sums(s);
+  auto const report = limit(s, 0.2);
+  auto const after = sums(s);
+  EXPECT_EQ(report.limited, 4);
+  for (int d = 0; d < 2; ++d)
+  {
+    EXPECT_LT(report.wall_impulse[d], -0.1 * before.momentum[d]);
+    EXPECT_NEAR(after.momentum[d] - before.momentum[d], report.wall_impulse[d], 1e-15 * before.momentum[d]);
+  }
+}
+
 TEST(LimitTravel, HeavyNode_isReportedNotTouched)
 {
   Scene s = sliverColumn(1.0, [](Vector2 x) { return x[0] > 2.5 ? Vector2{30.0, 0.0} : Vector2{0.0, 0.0}; });
