@@ -193,10 +193,10 @@ constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
   Mesh const cells = borrowed(mesh);
   NodeMaterialPairs const dofs = borrowed(dof_nodes);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
-  double const compliance = is_explicit || sharesMultipliers(options.placement) ? 0.0 : rubbing_compliance;
+  bool const gives_way = !is_explicit && !sharesMultipliers(options.placement);
   Motion const before{borrowed(velocity_n), table_n}, after{borrowed(predicted), table};
   ContactSystem const system = buildContactSystem(rows, dofs, borrowed(conditions), borrowed(dof_mass), before, after,
-                                                  bodies, dt, compliance, arrays);
+                                                  bodies, dt, gives_way, arrays);
   MultiplierSolution const solution =
       is_explicit
           ? explicitImpulses({mesh, pairs, before, pair_stress}, system, rows, dt, kick, options, exchange, arrays)

@@ -239,7 +239,7 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, dou
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt, double compliance, WorkArrays const &work)
+                                 double dt, bool gives_way, WorkArrays const &work)
 {
   ContactSystem system;
   system.num_rows = rows.count;
@@ -251,14 +251,19 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   View<int *> const free_number = numberFreeBodies(bodies, system, work);
   fillRows(rows, before, predicted, free_number, dt, system);
   ContactSystem const s = system;
+  double const bonded = gives_way ? bonded_compliance : 0.0, rubbing = gives_way ? rubbing_compliance : 0.0;
   launchFor(
       "Harmos::constrain::rowSums", rows.num_own, KOKKOS_LAMBDA(int i) {
         int const row = s.own(i);
         for (int k = 0; k < s.directions(row); ++k)
         {
           double if_alike;
-          s.row(row).diagonal[k] = rowSum(s, row, k, if_alike);
-          s.row(row).compliance[k] = s.tied(row) || s.friction(row) == 0.0 ? 0.0 : compliance * if_alike;
+          SystemRow &own = s.row(row);
+          own.diagonal[k] = rowSum(s, row, k, if_alike);
+          if (own.tied)
+            own.compliance[k] = bonded * own.diagonal[k];
+          else if (own.friction > 0.0)
+            own.compliance[k] = rubbing * if_alike;
         }
       });
   system.num_multipliers = rows.num_multipliers;

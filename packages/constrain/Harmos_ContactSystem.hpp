@@ -144,14 +144,20 @@ KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<doub
 /// in some hundred cycles (doc/decisions/0010).
 constexpr double rubbing_compliance = 1e-6;
 
+/// Compliance of bonded rows, over their row sums. Two rows of a bond may ask for the same: at the ends of neighbouring
+/// segments, which lie on one point, and n and across it at a wall that leaves one of them free. What such rows have
+/// between them moves nothing, and the impulses of round-off in it were 1e6 times those of the bond, or kept the
+/// tolerance from being met in a thousand iterations.
+constexpr double bonded_compliance = 1e-9;
+
 /// The rows' weights, masses, predictions and row sums for the multiplier loop (ContactSystem has the equations).
 /// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
 /// \param dof_mass [kg, per metre of depth or per radian]; \param dt [s]
-/// \param compliance Of rows that rub and have deformable dofs, as rubbing_compliance; others have none.
+/// \param gives_way Whether rows that rub and bonded ones have their compliances.
 ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
                                  BoundaryConditions const &conditions, View<double *> const &dof_mass,
                                  Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt, double compliance = 0.0, WorkArrays const &work = {});
+                                 double dt, bool gives_way = false, WorkArrays const &work = {});
 
 /// Rows with restitution that bear though they were not about to touch, since what others' impulses move strikes there,
 /// obey the law of impact from here on.

@@ -271,6 +271,32 @@ TEST(Constrain, tiedBlocks_shareBothVelocitiesAndHoldWhenPulled)
   }
 }
 
+// A bond at 45 degrees between slip walls, with rows at its ends: those of neighbouring segments ask for the same, and
+// at the walls n and across it ask for the same.
+TEST(Constrain, tiedRowsThatAskForTheSame_bearNoMoreThanTheBond)
+{
+  double const c = std::sqrt(0.5);
+  Vector2 const along{c, c}, n{-c, c}, o{0.0, 0.37};
+  TinyScene scene(rectilinearMesh(uniform(6, 6), uniform(8, 8)),
+                  {polygonBody(0, {o - 20 * along, o - 20 * along - 20 * n, o + 20 * along - 20 * n, o + 20 * along}),
+                   polygonBody(1, {o + 20 * along, o + 20 * along + 20 * n, o - 20 * along + 20 * n, o - 20 * along})},
+                  2, std::vector<BoundaryKind>(4, BoundaryKind::SlipWall));
+  scene.options.placement = Placement::SegmentEnds;
+  scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, 0.0, {}});
+  scene.setVelocity(
+      [](int material, Vector2 const &x) {
+        return Vector2{std::sin(x[0]) * (6.0 - x[0]), material == 0 ? V * x[1] : -V * x[1]};
+      });
+  ConstraintReport const report = scene.constrain();
+  EXPECT_TRUE(report.converged) << report.residual;
+  EXPECT_LE(report.iterations, 10);
+  expectMomentumAndEnergy(scene, report);
+  double const most = 8.0 * V * scene.sums(scene.predicted, -2).mass;
+  for (PairForce const &f : report.pair_force)
+    EXPECT_LE(norm(f.impulse), most);
+  EXPECT_LE(std::fabs(report.contact_loss), 8.0 * V * most);
+}
+
 // Slip walls at both ends take 0.4 of the impulse on block 0 and 0.3 of that on block 1: an external impulse of 0.1.
 TEST(Constrain, nodeConditions_takeTheirPartAsExternalImpulse)
 {
