@@ -96,10 +96,10 @@ struct ConstraintReport
 /// With restitution e a sliding row that is about to touch, gap/dt + G v* < 0, and closes, s = G v^{n-1/2} < 0, obeys
 /// Newton's law of impact instead: G v >= -e s, so that its impulse takes p (1 - e)/2 |s| of energy: none for e = 1.
 /// One that opens, s >= 0, and would close within the step goes back by what it opened:
-/// G v >= -e s - (1 - e) gap/dt, so that for e = 1 nothing is taken or given (its gap does not bound the speed: what
-/// opened in the last step may lie as void elsewhere in the cell). So does one that bears though it was not about to
-/// touch, since what others' impulses move strikes there: the impulses are found anew with it. Bodies in lasting
-/// contact, s = 0 without a gap, feel no difference.
+/// G v >= -e s - (1 - e) max(s, gap/dt), so that for e = 1 nothing is taken, and for no e anything given (its gap does
+/// not bound the speed: what opened in the last step may lie as void elsewhere in the cell). So does one that bears
+/// though it was not about to touch, since what others' impulses move strikes there: the impulses are found anew with
+/// it. Bodies in lasting contact, s = 0 without a gap, feel no difference.
 ///
 /// \param dof_mass   num_dof_nodes [kg/m]
 /// \param velocity_n v^{n-1/2}, num_dof_nodes [m/s]: for the work of the impulses

@@ -145,7 +145,8 @@ View<int *> numberFreeBodies(std::vector<RigidBody> const &bodies, ContactSystem
 KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Motion const &before, double dt)
 {
   double const start = dot(row.normal, relativeVelocity(row, before.velocity, before.bodies));
-  return relative + row.restitution * start + (start < 0.0 ? 0.0 : (1.0 - row.restitution) * row.opening() / dt);
+  double const back = start < 0.0 ? 0.0 : Math::max(start, row.opening() / dt);
+  return relative + row.restitution * start + (1.0 - row.restitution) * back;
 }
 
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.
