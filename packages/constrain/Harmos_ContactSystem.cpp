@@ -149,6 +149,31 @@ KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Mo
   return relative + row.restitution * start + (1.0 - row.restitution) * back;
 }
 
+/// Rows of which less can move ask for nothing: a splinter between a driven body and a wall of the mesh a thousandth of
+/// a cell behind would have to move nodes at a thousand times the body's speed, and further than their cells reach.
+constexpr double least_movable_part = 1e-3;
+
+/// How much of a row's velocity along direction k its own nodes and bodies can change: for each side one, less what
+/// node conditions hold; none for driven bodies and walls.
+KOKKOS_INLINE_FUNCTION double movablePart(ContactSystem const &s, ContactRow const &row, int i, int k)
+{
+  Vector2 const d = s.direction(i, k);
+  double part = 0.0;
+  for (int side = 0; side < 2; ++side)
+  {
+    if ((side == 0 ? row.body_a : row.body_b) != -1)
+      part += s.freeBody(i, side) >= 0 ? 1.0 : 0.0;
+    else
+      for (int c = 4 * side; c < 4 * side + 4; ++c)
+        if (s.dof(i, c) >= 0)
+        {
+          NodeCondition const &condition = s.condition(s.dof(i, c));
+          part += Math::fabs(s.weight(i, c)) * (condition.count == 0 ? 1.0 : norm(condition.project(d)));
+        }
+  }
+  return part;
+}
+
 /// What the rows know: weights, directions, bodies and the predicted relative velocities.
 void fillRows(ContactRows const &rows, Motion const &before, Motion const &predicted, View<int *> const &free_number,
               double dt, ContactSystem &system)
@@ -182,6 +207,9 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         out.struck = !r.tied && r.restitution > 0.0 && closing < 0.0;
         out.predicted[0] = r.tied ? along : out.struck ? rebound(r, along, before, dt) : closing;
         out.predicted[1] = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
+        for (int k = 0; k < s.directions(i); ++k)
+          if (movablePart(s, r, i, k) < least_movable_part)
+            out.predicted[k] = r.tied || k == 1 ? 0.0 : Math::max(0.0, out.predicted[k]);
       });
 }
 

@@ -132,6 +132,25 @@ TEST(ConstrainBodies, prescribedBody_doesItsWorkOnTheBlock)
   EXPECT_EQ(scene.sums(scene.half, 1).least, -V); // rigid dof nodes move with their body
 }
 
+// A film in the first cells of a wall, a driven body before it: its free nodes would have to move at V over its
+// thickness.
+TEST(ConstrainBodies, filmBetweenADrivenBodyAndAWall_isNotAskedForMoreThanItsNodesReach)
+{
+  for (double const film : {1e-5, 0.2})
+  {
+    TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(4, 4)),
+                    {boxBody(0, 0, 0, film, 4), boxBody(1, film, 0, 7, 4)}, 2,
+                    {BoundaryKind::Fixed, BoundaryKind::Outflow, BoundaryKind::Outflow, BoundaryKind::Outflow});
+    scene.bodies_n = {rigid(1, RigidMotion::Prescribed, 0, 0, {3.5, 2.0}, {-V, 0.0})};
+    scene.setVelocity([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
+    ConstraintReport const report = scene.constrain();
+    EXPECT_TRUE(report.converged) << report.residual;
+    EXPECT_EQ(report.rows, 4);
+    EXPECT_NEAR(scene.sums(scene.half, 0).least, film < 1e-3 ? 0.0 : -V / film, 1e-6 * V);
+    expectBalance(scene, report);
+  }
+}
+
 TEST(ConstrainBodies, drivenBodiesAmongThemselves_haveNoRows)
 {
   TinyScene scene = strip(4.4, rigid(1, RigidMotion::Prescribed, 0, 0, {5.5, 2.0}, {-V, 0.0}));
