@@ -110,6 +110,8 @@ void setRigidVelocities(Scene const &scene, CycleState &s)
     return;
   auto const mesh = scene.mesh;
   auto const pairs = s.pairs;
+  auto const dof_nodes = s.dof_nodes;
+  auto const boundary = scene.boundary;
   auto const velocity = s.state.velocity;
   for (RigidBody const &body : s.bodies)
   {
@@ -120,9 +122,12 @@ void setRigidVelocities(Scene const &scene, CycleState &s)
           for (int k = 0; k < 4; ++k)
           {
             int const node = mesh.cell_node(pairs.cell(pair), k);
-            Vector2 const v = body.velocityAt({mesh.node_position(node, 0), mesh.node_position(node, 1)});
-            velocity(pairs.dof_node(pair, k), 0) = v[0];
-            velocity(pairs.dof_node(pair, k), 1) = v[1];
+            Vector2 v = body.velocityAt({mesh.node_position(node, 0), mesh.node_position(node, 1)});
+            int const dof = pairs.dof_node(pair, k), condition = boundary.node_index(node);
+            if (condition >= 0 && dof_nodes.material(dof) < 0) // what shares the node stays in the mesh
+              v = boundary.condition(condition).apply(v);
+            velocity(dof, 0) = v[0];
+            velocity(dof, 1) = v[1];
           }
         });
   }

@@ -195,8 +195,8 @@ constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
   bool const gives_way = !is_explicit && !sharesMultipliers(options.placement);
   Motion const before{borrowed(velocity_n), table_n}, after{borrowed(predicted), table};
-  ContactSystem const system = buildContactSystem(rows, dofs, borrowed(conditions), borrowed(dof_mass), before, after,
-                                                  bodies, dt, gives_way, arrays);
+  ContactSystem const system = buildContactSystem(cells, borrowed(pairs), rows, dofs, borrowed(conditions),
+                                                  borrowed(dof_mass), before, after, bodies, dt, gives_way, arrays);
   MultiplierSolution const solution =
       is_explicit
           ? explicitImpulses({mesh, pairs, before, pair_stress}, system, rows, dt, kick, options, exchange, arrays)

@@ -91,8 +91,27 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
   system.rows_of = {offset, item};
 }
 
-/// Masses and node conditions of the contact dofs.
-void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
+/// Whether a rigid material moves a dof node that all materials share.
+KOKKOS_INLINE_FUNCTION bool movedByARigidOne(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
+                                             NodeMaterialPairs const &dof_nodes, int dof)
+{
+  if (dof_nodes.material(dof) >= 0 || bodies.of_material.extent(0) == 0)
+    return false;
+  bool rigid = false;
+  int const node = dof_nodes.node(dof);
+  for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
+  {
+    int const cell = mesh.node_cell.item(i) / 4;
+    for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
+      rigid = rigid || bodies.of_material(pairs.material(pair)) >= 0;
+  }
+  return rigid;
+}
+
+/// Masses and node conditions of the contact dofs. A dof node that keeps the velocity of a rigid material is as one
+/// that conditions hold.
+void gatherDofs(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
+                NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
                 View<double *> const &dof_mass, ContactSystem &system, WorkArrays const &work)
 {
   View<double *> const inverse_mass = work.unset<double *>("Harmos::constrain::inverse_mass", system.num_dofs);
@@ -105,6 +124,8 @@ void gatherDofs(NodeMaterialPairs const &dof_nodes, BoundaryConditions const &co
         int const index = conditions.node_index(dof_nodes.node(dof));
         NodeCondition const none;
         condition(i) = index >= 0 ? conditions.condition(index) : none;
+        if (movedByARigidOne(mesh, pairs, bodies, dof_nodes, dof))
+          condition(i).count = 2;
       });
   system.inverse_mass = inverse_mass;
   system.condition = condition;
@@ -265,10 +286,11 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, dou
 
 } // namespace
 
-ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
-                                 BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                                 Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt, bool gives_way, WorkArrays const &work)
+ContactSystem buildContactSystem(Mesh const &mesh, CellMaterialPairs const &pairs, ContactRows const &rows,
+                                 NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
+                                 View<double *> const &dof_mass, Motion const &before, Motion const &predicted,
+                                 std::vector<RigidBody> const &bodies, double dt, bool gives_way,
+                                 WorkArrays const &work)
 {
   ContactSystem system;
   system.num_rows = rows.count;
@@ -276,7 +298,7 @@ ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs cons
   system.own = rows.own;
   system.row = work.unset<SystemRow *>("Harmos::constrain::system_row", rows.count);
   numberDofs(rows, dof_nodes.num_dof_nodes, system, work);
-  gatherDofs(dof_nodes, conditions, dof_mass, system, work);
+  gatherDofs(mesh, pairs, predicted.bodies, dof_nodes, conditions, dof_mass, system, work);
   View<int *> const free_number = numberFreeBodies(bodies, system, work);
   fillRows(rows, before, predicted, free_number, dt, system);
   ContactSystem const s = system;

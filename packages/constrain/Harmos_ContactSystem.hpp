@@ -154,10 +154,11 @@ constexpr double bonded_compliance = 1e-9;
 /// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
 /// \param dof_mass [kg, per metre of depth or per radian]; \param dt [s]
 /// \param gives_way Whether rows that rub and bonded ones have their compliances.
-ContactSystem buildContactSystem(ContactRows const &rows, NodeMaterialPairs const &dof_nodes,
-                                 BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                                 Motion const &before, Motion const &predicted, std::vector<RigidBody> const &bodies,
-                                 double dt, bool gives_way = false, WorkArrays const &work = {});
+ContactSystem buildContactSystem(Mesh const &mesh, CellMaterialPairs const &pairs, ContactRows const &rows,
+                                 NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
+                                 View<double *> const &dof_mass, Motion const &before, Motion const &predicted,
+                                 std::vector<RigidBody> const &bodies, double dt, bool gives_way = false,
+                                 WorkArrays const &work = {});
 
 /// Rows with restitution that bear though they were not about to touch, since what others' impulses move strikes there,
 /// obey the law of impact from here on.

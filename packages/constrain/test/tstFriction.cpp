@@ -205,8 +205,9 @@ TEST(Bonds, multipliersThatAlternate_loadThemAlike)
   BodyTable const none = buildBodyTable({}, 2);
   ContactRows const rows = findContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions,
                                            none, scene.bonds, scene.options, *scene.exchange);
-  ContactSystem const system = buildContactSystem(rows, scene.dof_nodes, scene.conditions, scene.dof_mass,
-                                                  {scene.velocity_n, none}, {scene.predicted, none}, {}, scene.dt);
+  ContactSystem const system =
+      buildContactSystem(scene.mesh, scene.pairs, rows, scene.dof_nodes, scene.conditions, scene.dof_mass,
+                         {scene.velocity_n, none}, {scene.predicted, none}, {}, scene.dt);
   View<double *[2]> const impulse("impulse", rows.count);
   auto const p = Kokkos::create_mirror_view(impulse);
   for (int i = 0; i < rows.count; ++i)
