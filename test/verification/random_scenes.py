@@ -88,7 +88,7 @@ def deck(number):
 
 def closed(name, r):
     """The ledgers of a run, relative to what flows through them."""
-    energy = max(k + abs(i) for k, i in zip(r["kinetic_energy"], r["internal_energy"]))
+    energy = max(k + abs(i) for k, i in zip(r["kinetic_energy"], r["internal_energy"])) or 1.0
     check(f"{name}: energy", r.summary["energy_error"], 1e-11)
     check(f"{name}: mass", r.summary["mass_error"], 1e-12)
     check(f"{name}: momentum", r.summary["momentum_error"], 1e-10)
