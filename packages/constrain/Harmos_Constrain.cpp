@@ -193,7 +193,8 @@ constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
   Mesh const cells = borrowed(mesh);
   NodeMaterialPairs const dofs = borrowed(dof_nodes);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
-  bool const gives_way = !is_explicit && !sharesMultipliers(options.placement);
+  bool const gives_way =
+      !is_explicit && options.method != ConstraintMethod::Merged && !sharesMultipliers(options.placement);
   Motion const before{borrowed(velocity_n), table_n}, after{borrowed(predicted), table};
   ContactSystem const system = buildContactSystem(cells, borrowed(pairs), rows, dofs, borrowed(conditions),
                                                   borrowed(dof_mass), before, after, bodies, dt, gives_way, arrays);

@@ -268,7 +268,7 @@ void addNumerics(ParameterList &list)
       "order 3: a fit that is exact for quadratics, or contour integrals (Dukowicz and Kodis)");
   add(m, "limiter", std::string("range inside"), choice({"range", "range inside", "van leer", "none"}),
       "of gradients. range: no new extrema; range inside: the same, at the mesh's boundary with mirrored values beyond "
-      "it; van leer: towards neighbours");
+      "it; van leer: towards neighbours; it and none overshoot, for smooth fields");
   add(m, "swept_faces", remap.swept_faces, rulesOf(KeyType::Bool),
       "pure regions by swept faces; false: intersection everywhere");
   add(m, "merge_below", remap.merge_below, number(between(0.0, 0.1)),
