@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes taken at random: bodies of all kinds, laws, boundaries, constraints, meshes. Whatever meets, the run goes on and its
-ledgers stay closed. With a number, that many more scenes, which no other run had: random_scenes.py 500"""
+ledgers stay closed. `random_scenes.py 500` tries five hundred others."""
 import random
 import sys
 
