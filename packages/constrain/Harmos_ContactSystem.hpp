@@ -61,8 +61,9 @@ struct SystemRow
 ///
 /// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
 /// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*) + C p, b = G v* + max(gap, 0)/dt
-/// (tied: no gap), C the compliances of the rows. Dof nodes that rows touch are numbered compactly;
-/// rows_of gathers in key order.
+/// (tied: no gap), C the compliances of the rows; where node conditions, driven bodies and walls leave less than a
+/// thousandth of the row's velocity to move, b is at least zero (tied, and across n: zero). Dof nodes that rows touch
+/// are numbered compactly; rows_of gathers in key order.
 struct ContactSystem
 {
   int num_rows = 0; // with the halo's
@@ -153,6 +154,7 @@ constexpr double bonded_compliance = 1e-9;
 /// The rows' weights, masses, predictions and row sums for the multiplier loop (ContactSystem has the equations).
 /// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
 /// \param dof_mass [kg, per metre of depth or per radian]; \param dt [s]
+/// \param mesh, pairs They tell which dof nodes that all materials share a rigid one moves: no impulse does.
 /// \param gives_way Whether rows that rub and bonded ones have their compliances.
 ContactSystem buildContactSystem(Mesh const &mesh, CellMaterialPairs const &pairs, ContactRows const &rows,
                                  NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,

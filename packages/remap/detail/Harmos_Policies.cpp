@@ -10,9 +10,8 @@ namespace
 {
 
 constexpr double full_tolerance = 1e-12; // of the cell: sums of fractions this near to one are made one
-constexpr double least_share =
-    1e-10; // of the cell: what deformable material keeps at most where a rigid body covers it all
-constexpr double most_volume = 2.0; // of the cell: what a pair's mass times its specific volume may be
+constexpr double least_share = 1e-10;    // of the cell: what deformable material keeps, at most, under a rigid body
+constexpr double most_volume = 2.0;      // of the cell: what a pair's mass times its specific volume may be
 
 struct FinishFunctor
 {
