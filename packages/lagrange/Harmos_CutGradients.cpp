@@ -35,6 +35,16 @@ KOKKOS_INLINE_FUNCTION void volumeDerivatives(Quadrilateral const &q, Region con
   }
 }
 
+/// A bound of what the means of the shape functions' gradients over two parts of a cell can differ by: sqrt(2) of its
+/// longest side over its area for either, were the cell a rectangle.
+KOKKOS_INLINE_FUNCTION double steepestDifference(Quadrilateral const &q)
+{
+  double longest = 0.0;
+  for (int k = 0; k < 4; ++k)
+    longest = Math::max(longest, norm(q[(k + 1) % 4] - q[k]));
+  return 3.0 * longest / area(q);
+}
+
 /// Integrals of the shape functions over a region, per its ring's volume: midpoints of the edges of its triangles.
 KOKKOS_INLINE_FUNCTION void hoopMeans(Quadrilateral const &q, Region const &region, double hoop[4])
 {
@@ -99,6 +109,11 @@ struct CutGradientFunctor
                        (about_axis ? about.x[k] / about.volume : mean[k][0] / plane.area),
                    derivative[k][1] / filled - (about_axis ? about.y[k] / about.volume : mean[k][1] / plane.area)};
     beyond[3] = Vector2{0.0, 0.0} - (beyond[0] + beyond[1] + beyond[2]); // nothing for a translation, to the last digit
+    double largest = 0.0;
+    for (int k = 0; k < 4; ++k)
+      largest = Math::max(largest, norm(beyond[k]));
+    double const most = steepestDifference(q);
+    share *= largest > most ? most / largest : 1.0;
     for (int k = 0; k < 4; ++k)
     {
       gradient(row, 3 * k + CutGradientX) = share * beyond[k][0];

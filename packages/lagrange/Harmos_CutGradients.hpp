@@ -84,6 +84,11 @@ constexpr double most_void_beside_tip = 1e-3;
 /// in cells of several materials an intact solid whose volumes have drifted apart (borne_drift, most_drift) has its own
 /// gradient beside void as well.
 ///
+/// The two sides of a film may be moved in unequal pieces (one edge beside a block, two beside a rigid body's corner):
+/// to its thin volume the difference is a gradient without bound, whose viscosity tears it. Means of gradients are at
+/// most those of the shape functions: the difference from the cell's is scaled down to three times the longest side
+/// over the area, where it is larger (hoop's part included).
+///
 /// \param record By pair (PairField): specific volume and plastic strain say what is worn, with the mass what drifted.
 /// \param shortest_bent_edge Of the cell size; that of bendOf.
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.

@@ -104,6 +104,14 @@ def test_scenes_that_once_broke_keep_their_ledgers():
         clean(r)
 
 
+def test_film_of_gas_between_bodies_gives_no_energy():
+    r = harmos(DECKS / "film_under_a_rigid_block.yaml", QUIET)
+    closed("film under a rigid block", r)
+    given = min(after - before for before, after in zip(r["contact_loss"], r["contact_loss"][1:]))
+    check("given by contact in one cycle, of the energy at first", -given / (r["kinetic_energy"][0] + r["internal_energy"][0]), 1e-3)
+    clean(r)
+
+
 def try_scenes(numbers):
     """How many were run; a scene that its deck's checks refuse does not count. All are tried before one's failure is told."""
     count, broken = 0, []

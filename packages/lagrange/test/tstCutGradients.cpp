@@ -276,3 +276,17 @@ TEST(CutGradients, ofAThreadAndOfNothingAreFinite)
         EXPECT_TRUE(std::isfinite(g(0, k)));
     }
 }
+
+TEST(CutGradients, ofAFilmWhoseSidesMoveInUnequalPiecesAreAtMostThoseOfTheShapeFunctions)
+{
+  Vector2 const from = {2.0, 1.05}, to = {2.4, 1.2}, across = {-0.15e-5, 0.4e-5};
+  Vector2 const bend = from + 0.6 * (to - from);
+  for (Geometry const geometry : {Geometry::Planar, Geometry::Axisymmetric})
+    for (Region const &film : {polygon({from, to, to + across, from + across}),
+                               polygon({from, to, to + across, bend + across, from + across})})
+    {
+      auto const g = Harmos::onHost(CutCell(geometry, {film}).cut.gradient);
+      for (int k = 0; k < 4; ++k)
+        EXPECT_LE(std::hypot(g(0, 3 * k + CutGradientX), g(0, 3 * k + CutGradientY)), 10.1) << film.size;
+    }
+}
