@@ -2,26 +2,12 @@
 #ifndef HARMOS_VITAL_VERTICES_HPP
 #define HARMOS_VITAL_VERTICES_HPP
 
-#include <Harmos_DualProblem.hpp>
+#include <Harmos_RowTrace.hpp>
 
-#include <array>
+#include <vector>
 
 namespace Harmos
 {
-
-/// Where the line of a row's segment leaves the slave cell: two cell edges, by their nodes (twice the same: through the
-/// node), the points where it crosses them, and the shares of both in the row's point (linear between them).
-struct RowTrace
-{
-  long long node[2][2]; // global numbers of the nodes of each crossed edge, ascending
-  double point[2][2];   // [m] where the segment ends
-  double share[2];      // of the row's impulse, by end
-  double length;        // [m] of the segment
-  int material[2];      // on the segment's sides
-};
-
-/// The trace of a row; the normal is the row's.
-KOKKOS_FUNCTION RowTrace rowTrace(Mesh const &mesh, ContactRow const &row);
 
 /// A part of a group's impulse that acts in a row.
 struct GroupShare

@@ -13,7 +13,7 @@ namespace Harmos
 /// run through twice). A vertex on the line is kept once. Capacity overflow cannot happen for convex subjects with
 /// size < CapacityOut; elsewhere the surplus vertex is dropped and `overflow` is raised.
 template <int CapacityIn, int CapacityOut>
-KOKKOS_INLINE_FUNCTION bool clip(Polygon<CapacityIn> const &subject, Plane2 const &line, Polygon<CapacityOut> &result)
+HARMOS_LARGE_FUNCTION bool clip(Polygon<CapacityIn> const &subject, Plane2 const &line, Polygon<CapacityOut> &result)
 {
   bool complete = true;
   result.size = 0;
@@ -49,8 +49,8 @@ KOKKOS_INLINE_FUNCTION Plane2 edgeLine(Vector2 const &a, Vector2 const &b)
 
 /// The part of `subject` inside the convex, counter-clockwise `window`. Returns false on capacity overflow.
 template <int CapacityIn, int CapacityWindow, int CapacityOut>
-KOKKOS_INLINE_FUNCTION bool clipConvex(Polygon<CapacityIn> const &subject, Polygon<CapacityWindow> const &window,
-                                       Polygon<CapacityOut> &result)
+HARMOS_LARGE_FUNCTION bool clipConvex(Polygon<CapacityIn> const &subject, Polygon<CapacityWindow> const &window,
+                                      Polygon<CapacityOut> &result)
 {
   bool complete = true;
   result.size = 0;

@@ -8,10 +8,19 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #ifndef KOKKOS_VERSION
 #error "Harmos needs Kokkos 3.4 or later"
+#endif
+
+/// Marks an inline function that device compilers keep out of line. They inline whatever a kernel calls, and a kernel
+/// that reaches it from many places then takes tens of minutes to compile. On hosts: KOKKOS_INLINE_FUNCTION.
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define HARMOS_LARGE_FUNCTION KOKKOS_INLINE_FUNCTION __attribute__((noinline))
+#else
+#define HARMOS_LARGE_FUNCTION KOKKOS_INLINE_FUNCTION
 #endif
 
 namespace Harmos
@@ -26,7 +35,7 @@ template <class T>
 using View = Kokkos::View<T, Kokkos::LayoutRight, MemorySpace>;
 
 template <class T>
-using HostView = typename View<T>::HostMirror;
+using HostView = decltype(Kokkos::create_mirror_view(std::declval<View<T> const &>()));
 
 namespace Math
 {

@@ -24,7 +24,7 @@ namespace Harmos
 #endif
 
 /// Before a short loop of constant length: its variables then stay in registers.
-#if defined(__clang__) || defined(__CUDACC__)
+#if defined(__clang__) || defined(__CUDA_ARCH__)
 #define HARMOS_UNROLL _Pragma("unroll")
 #elif defined(__GNUC__)
 #define HARMOS_UNROLL _Pragma("GCC unroll 8")

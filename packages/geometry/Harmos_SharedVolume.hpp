@@ -41,9 +41,9 @@ KOKKOS_INLINE_FUNCTION double fanTriangle(Polygon<Capacity> const &p, int i, Pol
 
 /// Of convex polygons. \return False where the vertices did not fit.
 template <int CapacityA, int CapacityB, int CapacityWindow>
-KOKKOS_INLINE_FUNCTION bool addShared(Polygon<CapacityA> const &a, Polygon<CapacityB> const &b,
-                                      Polygon<CapacityWindow> const &window, AreaWeight const &weight, double factor,
-                                      double &sum)
+HARMOS_LARGE_FUNCTION bool addShared(Polygon<CapacityA> const &a, Polygon<CapacityB> const &b,
+                                     Polygon<CapacityWindow> const &window, AreaWeight const &weight, double factor,
+                                     double &sum)
 {
   Polygon<capacity> inside, both;
   if (!clipConvex(a, window, inside))
@@ -76,8 +76,8 @@ KOKKOS_INLINE_FUNCTION Polygon<Capacity> relativeTo(Vector2 const &origin, Polyg
 /// \param window   Convex, counter-clockwise. Coordinates are taken relative to its vertex 0.
 /// \return [length^2], per radian [length^3]; >= 0
 template <int CapacityA, int CapacityB, int CapacityWindow>
-KOKKOS_INLINE_FUNCTION double sharedVolume(Polygon<CapacityA> const &a, Polygon<CapacityB> const &b,
-                                           Polygon<CapacityWindow> const &window, Geometry geometry)
+HARMOS_LARGE_FUNCTION double sharedVolume(Polygon<CapacityA> const &a, Polygon<CapacityB> const &b,
+                                          Polygon<CapacityWindow> const &window, Geometry geometry)
 {
   using namespace SharedVolumeDetail;
   if (a.empty() || b.empty())

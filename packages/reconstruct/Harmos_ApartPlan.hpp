@@ -8,7 +8,7 @@ namespace Harmos
 {
 
 /// One body of a cell, all else as void.
-KOKKOS_INLINE_FUNCTION CellComponents alone(CellComponents const &components, int body)
+HARMOS_LARGE_FUNCTION CellComponents alone(CellComponents const &components, int body)
 {
   CellComponents c = components;
   c.count = 2;
@@ -24,7 +24,7 @@ KOKKOS_INLINE_FUNCTION CellComponents alone(CellComponents const &components, in
 }
 
 /// The region of a body that a plan has apart from the others.
-KOKKOS_INLINE_FUNCTION Region regionAlone(CellComponents const &components, RemovalPlan const &plan, int body)
+HARMOS_LARGE_FUNCTION Region regionAlone(CellComponents const &components, RemovalPlan const &plan, int body)
 {
   double const volume = components.volume[body], beyond = 1.0 - volume - plan.open[body];
   Division const one =
@@ -50,8 +50,8 @@ enum class DrawnAlone
 /// \param plan   Gets the body's normals and `open`; the squared miss of its first moment is added to `error`.
 /// \param region Out: the body's, in the cell's unit coordinates.
 /// \return How the centroid was met.
-KOKKOS_INLINE_FUNCTION DrawnAlone drawAlone(ReconstructionField const &field, CellComponents const &components,
-                                            int body, SliverBounds const &slivers, RemovalPlan &plan, Region &region)
+HARMOS_LARGE_FUNCTION DrawnAlone drawAlone(ReconstructionField const &field, CellComponents const &components, int body,
+                                           SliverBounds const &slivers, RemovalPlan &plan, Region &region)
 {
   constexpr double exact = 1e-4, bent = 2e-3, tip_miss = 0.02, least_miss = 1e-8; // of the volume; of the cell
   CellComponents const c = alone(components, body);
@@ -94,7 +94,7 @@ KOKKOS_INLINE_FUNCTION DrawnAlone drawAlone(ReconstructionField const &field, Ce
 }
 
 /// Whether no point of one convex region is nearer than `least` to another's: a line at an edge of one parts them.
-KOKKOS_INLINE_FUNCTION bool clearOf(Region const &a, Region const &b, double least)
+HARMOS_LARGE_FUNCTION bool clearOf(Region const &a, Region const &b, double least)
 {
   for (int pass = 0; pass < 2; ++pass)
   {
@@ -120,8 +120,8 @@ KOKKOS_INLINE_FUNCTION bool clearOf(Region const &a, Region const &b, double lea
 /// through a tenth of a cell of void. Bodies with bent edges count where their regions keep 0.01 cells away from each
 /// other: what bends is a chord to some thousandths of a cell. Matter that has flowed has no straight edges: its cells
 /// are left to the other plans.
-KOKKOS_INLINE_FUNCTION RemovalPlan apartPlan(ReconstructionField const &field, CellComponents const &components,
-                                             SliverBounds const &slivers, RemovalPlan const &given)
+HARMOS_LARGE_FUNCTION RemovalPlan apartPlan(ReconstructionField const &field, CellComponents const &components,
+                                            SliverBounds const &slivers, RemovalPlan const &given)
 {
   constexpr double much_better = 0.1;     // of the given plan's error
   constexpr double least_overlap = 1e-13; // of the cell

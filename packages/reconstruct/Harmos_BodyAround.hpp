@@ -15,7 +15,7 @@ public:
   static constexpr int most_neighbours = 8;
   int count; // of the neighbours; others are not looked at
 
-  KOKKOS_INLINE_FUNCTION BodyAround(ReconstructionField const &field, CellComponents const &components, int body)
+  HARMOS_LARGE_FUNCTION BodyAround(ReconstructionField const &field, CellComponents const &components, int body)
       : components_(components)
   {
     Rows const &neighbours = field.mesh.cell_neighbour;

@@ -36,8 +36,8 @@ KOKKOS_INLINE_FUNCTION double continuedMisfit(CellComponents const &components, 
 
 /// Turn the second line of a sequence to where the neighbours have least misfit: the best of 24 angles, and between its
 /// neighbours by golden section, to 1e-6. \return The misfit.
-KOKKOS_INLINE_FUNCTION double turnSecondLine(CellComponents const &components, BodyAround const (&around)[2],
-                                             RemovalPlan &plan)
+HARMOS_LARGE_FUNCTION double turnSecondLine(CellComponents const &components, BodyAround const (&around)[2],
+                                            RemovalPlan &plan)
 {
   constexpr int angles = 24, sections = 27;
   constexpr double spacing = 2.0 * Math::pi / angles, golden = 0.6180339887498949;
@@ -85,8 +85,8 @@ KOKKOS_INLINE_FUNCTION double turnSecondLine(CellComponents const &components, B
 /// a tenth of the least volume at most. Void of some 1e-3 of the cell has no centroid to speak of where the bodies'
 /// edges are bent: if by that the lines of neither order fit, the void's is turned to the neighbours. Void between the
 /// bodies stays with the order that suits the moments.
-KOKKOS_INLINE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field, CellComponents const &components,
-                                                 SliverBounds const &slivers, RemovalPlan const &given)
+HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field, CellComponents const &components,
+                                                SliverBounds const &slivers, RemovalPlan const &given)
 {
   constexpr double poor_misfit = 1e-2, much_better = 1e-2; // squares
   constexpr double most_miss = 0.1;                        // of the least volume

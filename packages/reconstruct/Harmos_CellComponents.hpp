@@ -46,7 +46,7 @@ struct CellComponents
   KOKKOS_INLINE_FUNCTION Vector2 fromUnit(Vector2 const &xi) const { return corner + size * xi; }
 
   /// Weighted moments of a region about its first vertex.
-  KOKKOS_INLINE_FUNCTION Moments<1> momentsOf(Region const &region) const
+  HARMOS_LARGE_FUNCTION Moments<1> momentsOf(Region const &region) const
   {
     return moments<1>(region, region[0], {weight.at(region[0]), weight.slope});
   }
@@ -114,7 +114,7 @@ KOKKOS_INLINE_FUNCTION int componentCount(ReconstructionField const &field, int 
 
 /// \pre componentCount(field, cell) <= max_components.
 /// \param with_centroids Read the pairs' centroids; the void's is what they leave of the cell's first moment.
-KOKKOS_INLINE_FUNCTION CellComponents cellComponents(ReconstructionField const &field, int cell, bool with_centroids)
+HARMOS_LARGE_FUNCTION CellComponents cellComponents(ReconstructionField const &field, int cell, bool with_centroids)
 {
   Quadrilateral const quad = cellQuadrilateral(field.mesh, cell);
   CellComponents c;
@@ -164,8 +164,8 @@ KOKKOS_INLINE_FUNCTION CellComponents cellComponents(ReconstructionField const &
 }
 
 /// Volume fraction in any cell of those materials (and void) that make up a set of components.
-KOKKOS_INLINE_FUNCTION double setFraction(ReconstructionField const &field, CellComponents const &components,
-                                          ComponentSet set, int cell)
+HARMOS_LARGE_FUNCTION double setFraction(ReconstructionField const &field, CellComponents const &components,
+                                         ComponentSet set, int cell)
 {
   int const kind = field.pairs.cell_kind(cell);
   if (kind == VoidCell)

@@ -22,7 +22,7 @@ class CellNeighbours
 public:
   static constexpr int stored_packs = numPacks(8);
 
-  KOKKOS_INLINE_FUNCTION CellNeighbours(ReconstructionField const &field, CellComponents const &components)
+  HARMOS_LARGE_FUNCTION CellNeighbours(ReconstructionField const &field, CellComponents const &components)
       : field_(field), components_(components), first_(field.mesh.cell_neighbour.offset(components.cell)),
         count_(field.mesh.cell_neighbour.offset(components.cell + 1) - first_)
   {
@@ -62,7 +62,7 @@ private:
     return field_.mesh.cell_neighbour.item(first_ + Math::min(p * pack_width + lane, count_ - 1));
   }
 
-  KOKKOS_INLINE_FUNCTION NeighbourPack gather(int p) const
+  HARMOS_LARGE_FUNCTION NeighbourPack gather(int p) const
   {
     double row[10][pack_width];
     for (int lane = 0; lane < pack_width; ++lane)

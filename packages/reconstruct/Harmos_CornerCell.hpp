@@ -66,7 +66,7 @@ struct CornerProblem
   }
 
   /// Both lines in turn, so that what they leave has the body's volume.
-  KOKKOS_INLINE_FUNCTION CornerCell at(double const (&x)[CornerCell::unknowns]) const
+  HARMOS_LARGE_FUNCTION CornerCell at(double const (&x)[CornerCell::unknowns]) const
   {
     constexpr double least_part = 1e-6;
     CornerCell cell;
@@ -89,7 +89,7 @@ struct CornerProblem
 /// \param hopeful An error that a search for an exact corner passes in its first ten steps; others end there.
 ///
 /// Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431-441.
-KOKKOS_INLINE_FUNCTION CornerCell bestCornerCell(CornerProblem const &problem, CornerCell const &start, double hopeful)
+HARMOS_LARGE_FUNCTION CornerCell bestCornerCell(CornerProblem const &problem, CornerCell const &start, double hopeful)
 {
   constexpr int n = CornerCell::unknowns, max_steps = 40, max_tries = 6, early_steps = 10;
   constexpr double difference = 1e-7, longest_step = 0.3;
@@ -184,9 +184,9 @@ KOKKOS_INLINE_FUNCTION bool hasFlowed(ReconstructionField const &field, CellComp
 /// \param normal Of the straight line; leaves the body.
 /// \param thorough Of a body drawn alone, whose matter has not flowed: look also where the neighbours hardly miss the
 ///                 straight line, search to the end, and take tips at 1e-4 of the straight line's error.
-KOKKOS_INLINE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
-                                                  int body, Region const &polygon, Plane2 const *rim,
-                                                  Vector2 const &normal, bool thorough)
+HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
+                                                 int body, Region const &polygon, Plane2 const *rim,
+                                                 Vector2 const &normal, bool thorough)
 {
   double const hopeful = thorough ? 1e300 : 1e-3;
   constexpr double misfit_weight = 0.1, least_miss = 1e-9, poor_misfit = 1e-2, near_exact = 1e-6, near_tip = 1e-4;
@@ -271,8 +271,8 @@ KOKKOS_INLINE_FUNCTION bool cutsTips(CellComponents const &components, Region co
 /// Bodies and void, none a sliver, that the given plan does not leave as they are: where one body ends in a convex
 /// corner, alone or beyond another body that a straight line cuts off exactly, two lines between it and the void leave
 /// all as they are.
-KOKKOS_INLINE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, CellComponents const &components,
-                                              SliverBounds const &slivers, RemovalPlan const &given)
+HARMOS_LARGE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, CellComponents const &components,
+                                             SliverBounds const &slivers, RemovalPlan const &given)
 {
   constexpr double exact_miss = 1e-20; // squared, of the body that a straight line cuts off
   int const bodies = components.count - 1;

@@ -18,8 +18,8 @@ struct FilmedCell
 /// Cuts off what a filmed plan has before its last two bodies, and returns what is left.
 /// \param in_place Of the void: what lies where the plan has it.
 /// \param region Takes the regions of the bodies that are cut off, by component; may be null.
-KOKKOS_INLINE_FUNCTION Region beforeLastTwo(CellComponents const &components, RemovalPlan const &plan, double in_place,
-                                            Region *region = nullptr)
+HARMOS_LARGE_FUNCTION Region beforeLastTwo(CellComponents const &components, RemovalPlan const &plan, double in_place,
+                                           Region *region = nullptr)
 {
   int const open = components.count - 1;
   Region polygon = components.polygon;
@@ -42,7 +42,7 @@ KOKKOS_INLINE_FUNCTION Region beforeLastTwo(CellComponents const &components, Re
 /// \param plan Void neither last nor last but one; the normal before the last leaves the last body but one.
 /// \param in_place Of the void: what is cut off where the plan has it. The rest is a film between the last two bodies,
 /// parallel to their line.
-KOKKOS_INLINE_FUNCTION FilmedCell filmedCell(CellComponents const &components, RemovalPlan const &plan, double in_place)
+HARMOS_LARGE_FUNCTION FilmedCell filmedCell(CellComponents const &components, RemovalPlan const &plan, double in_place)
 {
   int const count = components.count, open = count - 1;
   int const near = plan.component[count - 2], far = plan.component[count - 1];
@@ -68,7 +68,7 @@ KOKKOS_INLINE_FUNCTION FilmedCell filmedCell(CellComponents const &components, R
 /// linear in the film's part as long as it is thin, and the sum of their squares is made least. Twice, since the part
 /// that lies before the two bounds them.
 /// \param plan Void not last nor last but one.
-KOKKOS_INLINE_FUNCTION void placeFilms(CellComponents const &components, RemovalPlan &plan)
+HARMOS_LARGE_FUNCTION void placeFilms(CellComponents const &components, RemovalPlan &plan)
 {
   constexpr int passes = 2;
   int const count = components.count, open = count - 1;
@@ -109,8 +109,8 @@ KOKKOS_INLINE_FUNCTION void placeFilms(CellComponents const &components, Removal
 /// grew. What the void misses there grows with it, until a sequence misses less that cuts a block's line on through the
 /// bar: the bar lost its tip to the block, and both hooked to each other.
 /// \param error Of the given plan: sum over the bodies of momentError.
-KOKKOS_INLINE_FUNCTION RemovalPlan filmPlan(ReconstructionField const &field, CellComponents const &components,
-                                            SliverBounds const &slivers, RemovalPlan const &given, double error)
+HARMOS_LARGE_FUNCTION RemovalPlan filmPlan(ReconstructionField const &field, CellComponents const &components,
+                                           SliverBounds const &slivers, RemovalPlan const &given, double error)
 {
   constexpr double much_better = 0.25, with_another_first = 0.01; // of the error
   constexpr int open = 3;

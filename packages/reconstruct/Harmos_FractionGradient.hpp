@@ -43,9 +43,9 @@ struct NeighbourValues
 ///
 /// Exact for linear functions on any mesh. Where the neighbours lie on one line (a strip of cells) the gradient along
 /// that line; zero without neighbours. \param values Of f.
-KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
-                                                    CellNeighbours const &neighbours, FractionDifference const &f,
-                                                    NeighbourValues const &values)
+HARMOS_LARGE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
+                                                   CellNeighbours const &neighbours, FractionDifference const &f,
+                                                   NeighbourValues const &values)
 {
   Vector2 const centre = quadrilateralCentroid(unitQuadrilateral(field.mesh, components, components.cell));
   Pack const f0 = values.own, third = 1.0 / 3.0;
@@ -81,8 +81,8 @@ KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &f
   return (dot(line, b) / trace) * line;
 }
 
-KOKKOS_INLINE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
-                                                    CellNeighbours const &neighbours, FractionDifference const &f)
+HARMOS_LARGE_FUNCTION Vector2 leastSquaresGradient(ReconstructionField const &field, CellComponents const &components,
+                                                   CellNeighbours const &neighbours, FractionDifference const &f)
 {
   return leastSquaresGradient(field, components, neighbours, f, NeighbourValues(field, components, neighbours, f));
 }
@@ -93,8 +93,8 @@ namespace Detail
 /// Gradient at a node by the contour integral over its dual, (1/A) sum f n dl around the centroids of its cells,
 /// walked counter-clockwise from cell to cell across faces. False where the ring is open (boundary, edge of the halo).
 template <class Function>
-KOKKOS_INLINE_FUNCTION bool nodeGradient(ReconstructionField const &field, CellComponents const &components,
-                                         Function const &f, int corner, Vector2 &gradient)
+HARMOS_LARGE_FUNCTION bool nodeGradient(ReconstructionField const &field, CellComponents const &components,
+                                        Function const &f, int corner, Vector2 &gradient)
 {
   constexpr int max_valence = 32;
   int const start = 4 * components.cell + corner;
@@ -138,8 +138,8 @@ KOKKOS_INLINE_FUNCTION bool nodeGradient(ReconstructionField const &field, CellC
 ///
 /// Youngs, in Numerical Methods for Fluid Dynamics (1982) 273-285; Dukowicz & Kodis, SIAM J. Sci. Stat. Comput. 8
 /// (1987) 305-321.
-KOKKOS_INLINE_FUNCTION Vector2 youngsGradient(ReconstructionField const &field, CellComponents const &components,
-                                              FractionDifference const &f)
+HARMOS_LARGE_FUNCTION Vector2 youngsGradient(ReconstructionField const &field, CellComponents const &components,
+                                             FractionDifference const &f)
 {
   Vector2 sum{0.0, 0.0};
   int closed = 0;

@@ -166,7 +166,7 @@ KOKKOS_INLINE_FUNCTION InsidePart insidePart(NeighbourPack const &quad, Vector2 
 }
 
 template <class Problem>
-KOKKOS_INLINE_FUNCTION LineMisfit lineMisfit(Problem const &problem, Vector2 const &normal)
+HARMOS_LARGE_FUNCTION LineMisfit lineMisfit(Problem const &problem, Vector2 const &normal)
 {
   bool const cut_inside = problem.inside_volume <= problem.outside_volume;
   AreaWeight const weight = problem.neighbours.weight();
@@ -213,7 +213,7 @@ struct AngleBracket
 /// hardly falls (where no straight line fits, Gauss-Newton alone creeps); from then on they stay inside, by bisection
 /// where the secant is slow.
 template <class Problem>
-KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(Problem const &problem, Vector2 const &start)
+HARMOS_LARGE_FUNCTION LeastSquaresLine fitAngle(Problem const &problem, Vector2 const &start)
 {
   constexpr int max_iterations = 100; // a dozen to the bracket, 33 halvings of it, and what the secant tries between
   constexpr double least_curvature = 0.1; // of the secant, of Gauss-Newton's: below it the latter is taken
@@ -264,8 +264,8 @@ KOKKOS_INLINE_FUNCTION LeastSquaresLine fitAngle(Problem const &problem, Vector2
 }
 
 /// Whether some neighbour holds anything but the two sets.
-KOKKOS_INLINE_FUNCTION bool othersNear(ReconstructionField const &field, CellComponents const &components,
-                                       ComponentSet either)
+HARMOS_LARGE_FUNCTION bool othersNear(ReconstructionField const &field, CellComponents const &components,
+                                      ComponentSet either)
 {
   Rows const &neighbours = field.mesh.cell_neighbour;
   for (int n = neighbours.offset(components.cell); n < neighbours.offset(components.cell + 1); ++n)
@@ -305,10 +305,10 @@ KOKKOS_INLINE_FUNCTION bool isOpenNear(ReconstructionField const &field, CellCom
 /// \param fallback Unit normal; the answer where neither fraction has a gradient.
 ///
 /// Pilliod & Puckett, J. Comput. Phys. 199 (2004) 465-502 (LVIRA); the analytic derivative is ours.
-KOKKOS_INLINE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField const &field,
-                                                         CellComponents const &components, Region const &polygon,
-                                                         ComponentSet inside, ComponentSet outside,
-                                                         Vector2 const &fallback)
+HARMOS_LARGE_FUNCTION LeastSquaresLine leastSquaresLine(ReconstructionField const &field,
+                                                        CellComponents const &components, Region const &polygon,
+                                                        ComponentSet inside, ComponentSet outside,
+                                                        Vector2 const &fallback)
 {
   constexpr double poor_misfit = 1e-2; // a tenth of a cell
   LeastSquaresLine best{fallback, 1.0, true};

@@ -66,8 +66,8 @@ struct WeightedSlab
 
 /// See lineCut. \tparam Uniform The weight is one.
 template <bool Uniform, int Capacity>
-KOKKOS_INLINE_FUNCTION LineCut weightedLineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
-                                               AreaWeight const &weight)
+HARMOS_LARGE_FUNCTION LineCut weightedLineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
+                                              AreaWeight const &weight)
 {
   int const size = polygon.size;
   int low = 0;
@@ -175,8 +175,8 @@ KOKKOS_INLINE_FUNCTION LineCut weightedLineCut(Polygon<Capacity> const &polygon,
 ///
 /// Scardovelli & Zaleski, J. Comput. Phys. 164 (2000) 228-237 for squares; here any convex polygon.
 template <int Capacity>
-KOKKOS_INLINE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
-                                       AreaWeight const &weight = {})
+HARMOS_LARGE_FUNCTION LineCut lineCut(Polygon<Capacity> const &polygon, Vector2 const &normal, double volume,
+                                      AreaWeight const &weight = {})
 {
   return weight.uniform() ? Detail::weightedLineCut<true>(polygon, normal, volume, weight)
                           : Detail::weightedLineCut<false>(polygon, normal, volume, weight);
@@ -201,7 +201,7 @@ KOKKOS_INLINE_FUNCTION void dropRepeatedEnd(Polygon<Capacity> &polygon)
 
 /// The part of the polygon below the chord. It shares the chord's end points with partAbove, bit for bit.
 template <int Capacity>
-KOKKOS_INLINE_FUNCTION Region partBelow(Polygon<Capacity> const &polygon, LineCut const &cut)
+HARMOS_LARGE_FUNCTION Region partBelow(Polygon<Capacity> const &polygon, LineCut const &cut)
 {
   Region part;
   for (int i = cut.first;; i = polygon.next(i))
@@ -218,7 +218,7 @@ KOKKOS_INLINE_FUNCTION Region partBelow(Polygon<Capacity> const &polygon, LineCu
 
 /// The part of the polygon above the chord.
 template <int Capacity>
-KOKKOS_INLINE_FUNCTION Region partAbove(Polygon<Capacity> const &polygon, LineCut const &cut)
+HARMOS_LARGE_FUNCTION Region partAbove(Polygon<Capacity> const &polygon, LineCut const &cut)
 {
   Region part;
   pushDistinct(part, cut.begin);
@@ -241,8 +241,8 @@ struct Division
 /// Divide a convex polygon by a line of given normal into given volumes; the smaller part is the one that is cut.
 ///
 /// \param inside_volume, outside_volume Their sum is the polygon's (weighted) volume, to round-off. [length^2]
-KOKKOS_INLINE_FUNCTION Division divide(Region const &polygon, Vector2 const &normal, double inside_volume,
-                                       double outside_volume, AreaWeight const &weight = {})
+HARMOS_LARGE_FUNCTION Division divide(Region const &polygon, Vector2 const &normal, double inside_volume,
+                                      double outside_volume, AreaWeight const &weight = {})
 {
   Division division;
   bool const cut_inside = inside_volume <= outside_volume;

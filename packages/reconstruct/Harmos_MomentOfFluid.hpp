@@ -32,8 +32,8 @@ struct TurningCut
 /// k L^3 / 12, w_m L^3 / 12. With w = w_b + k x, x from the chord's begin, a triangle 0, a, b of twice the area c has
 /// the integrals c (w_b / 2 + k (a_x + b_x) / 6) of w and
 /// c (w_b (a + b) / 6 + k ((a_x + b_x) (a + b) + a_x a + b_x b) / 24) of w x; the chord's own edges add nothing.
-KOKKOS_INLINE_FUNCTION TurningCut weightedTurningCut(Region const &polygon, Vector2 const &normal, double volume,
-                                                     AreaWeight const &weight)
+HARMOS_LARGE_FUNCTION TurningCut weightedTurningCut(Region const &polygon, Vector2 const &normal, double volume,
+                                                    AreaWeight const &weight)
 {
   LineCut const cut = lineCut(polygon, normal, volume, weight);
   Vector2 const chord = cut.end - cut.begin;
@@ -64,8 +64,8 @@ KOKKOS_INLINE_FUNCTION TurningCut weightedTurningCut(Region const &polygon, Vect
   return result;
 }
 
-KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 const &normal, double volume,
-                                             AreaWeight const &weight)
+HARMOS_LARGE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 const &normal, double volume,
+                                            AreaWeight const &weight)
 {
   if (!weight.uniform())
     return weightedTurningCut(polygon, normal, volume, weight);
@@ -97,8 +97,8 @@ KOKKOS_INLINE_FUNCTION TurningCut turningCut(Region const &polygon, Vector2 cons
 /// A local minimum of |x(theta) - c|^2 from a given direction. Stationary where g = (x - c).tau = 0, tau along the
 /// chord; g' = -I/V - (x - c).n. Newton's method, kept inside the bracket g(low) > 0 > g(high) by bisection. It
 /// ends with a step whose square is round-off: that one needs no further cut.
-KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vector2 const &start, double volume,
-                                                      Vector2 const &reference, AreaWeight const &weight)
+HARMOS_LARGE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vector2 const &start, double volume,
+                                                     Vector2 const &reference, AreaWeight const &weight)
 {
   constexpr int max_iterations = 100;  // a dozen to the bracket, 50 halvings of it, and what Newton tries between
   constexpr double tolerance = 4e-16;  // of the unit cell: the round-off of the centroid
@@ -163,8 +163,8 @@ KOKKOS_INLINE_FUNCTION MomentOfFluidLine localMinimum(Region const &polygon, Vec
 ///
 /// Dyadechko & Shashkov, J. Comput. Phys. 227 (2008) 5361-5384; derivative by Lemoine et al., J. Comput. Phys. 330
 /// (2017) 1-14 in this notation.
-KOKKOS_INLINE_FUNCTION MomentOfFluidLine momentOfFluidLine(Region const &polygon, double volume,
-                                                           Vector2 const &reference, AreaWeight const &weight = {})
+HARMOS_LARGE_FUNCTION MomentOfFluidLine momentOfFluidLine(Region const &polygon, double volume,
+                                                          Vector2 const &reference, AreaWeight const &weight = {})
 {
   double const small_residual = 1e-4 * volume; // a hundredth of the part's size, squared
   Moments<2> const m = moments<2>(polygon, polygon[0]);

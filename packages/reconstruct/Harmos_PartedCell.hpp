@@ -41,7 +41,7 @@ struct PartingProblem
   bool line_alone = false; // the error is the neighbours' misfit alone; no own lines
 
   /// \param of_misfit Weight of the mean squared misfit, of the smaller body's volume.
-  KOKKOS_INLINE_FUNCTION PartingProblem(ReconstructionField const &f, CellComponents const &c, double of_misfit)
+  HARMOS_LARGE_FUNCTION PartingProblem(ReconstructionField const &f, CellComponents const &c, double of_misfit)
       : field(f), components(c), neighbours(f, c),
         weight(of_misfit * Math::min(c.volume[0], c.volume[1]) / Math::max(1, neighbours.count()))
   {
@@ -82,7 +82,7 @@ struct PartingProblem
   }
 
   /// \param near Where the searches for the own lines begin; none: everywhere.
-  KOKKOS_INLINE_FUNCTION PartedCell at(double angle, double void_part, PartedCell const *near = nullptr) const
+  HARMOS_LARGE_FUNCTION PartedCell at(double angle, double void_part, PartedCell const *near = nullptr) const
   {
     PartedCell cell = {};
     cell.angle = angle;
@@ -127,7 +127,7 @@ struct PartingProblem
 /// \param max_steps Of accepted turns and moves.
 ///
 /// Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431-441.
-KOKKOS_INLINE_FUNCTION PartedCell bestPartedCell(PartingProblem const &problem, PartedCell const &start, int max_steps)
+HARMOS_LARGE_FUNCTION PartedCell bestPartedCell(PartingProblem const &problem, PartedCell const &start, int max_steps)
 {
   constexpr int max_tries = 8;
   constexpr double difference = 1e-7, longest_turn = 0.3;

@@ -12,7 +12,7 @@ namespace Harmos
 constexpr double parting_misfit = 0.1; // of the smaller body's volume times the parting line's misfit
 
 /// The parting line that cutting body 0, body 1 or the void off first would draw, the own lines placed anew.
-KOKKOS_INLINE_FUNCTION PartedCell partedAsOrder(PartingProblem const &problem, SliverBounds const &slivers, int first)
+HARMOS_LARGE_FUNCTION PartedCell partedAsOrder(PartingProblem const &problem, SliverBounds const &slivers, int first)
 {
   CellComponents const &c = problem.components;
   auto const normalOf = [&](Region const &polygon, ComponentSet inside, ComponentSet outside) {
@@ -75,7 +75,7 @@ KOKKOS_INLINE_FUNCTION bool voidIsBetween(PartedCell const &cell)
 /// With the bodies left out, the neighbours' misfit alone is made least first, from twelve lines about Youngs' normal
 /// between the bodies' fractions. No exact cell has a larger misfit than it may have error: beside a curved interface
 /// the search ends here.
-KOKKOS_INLINE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, double exact)
+HARMOS_LARGE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, double exact)
 {
   constexpr int angles = 3, parts = 4, lines = 2, line_steps = 8, max_steps = 20;
   constexpr double spread = 0.5; // between the angles
@@ -130,8 +130,8 @@ KOKKOS_INLINE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, doubl
 ///
 /// The search begins at the best of the lines that the three orders would draw, and at the next best where it ends
 /// nowhere near an exact cell; then at the neighbours' lines.
-KOKKOS_INLINE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, CellComponents const &components,
-                                              SliverBounds const &slivers, RemovalPlan const &sequence)
+HARMOS_LARGE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, CellComponents const &components,
+                                             SliverBounds const &slivers, RemovalPlan const &sequence)
 {
   constexpr double near_exact = 1e-4; // of the sequence's error
   constexpr int max_steps = 20;
@@ -198,8 +198,8 @@ KOKKOS_INLINE_FUNCTION bool mayBeFilm(CellComponents const &components, double s
 ///
 /// A tip of void comes in from there. Overlaps along the line between the bodies move the centroid of 1e-5 of the cell
 /// by a part of the cell: void took the corner of the one that goes on below, though it is the other that ends.
-KOKKOS_INLINE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellComponents const &components,
-                                         RemovalPlan const &plan)
+HARMOS_LARGE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellComponents const &components,
+                                        RemovalPlan const &plan)
 {
   if (components.count != 3 || components.material[2] != void_material || plan.parted || plan.corner || plan.apart ||
       plan.filmed)
@@ -252,8 +252,8 @@ KOKKOS_INLINE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellC
 /// So where a neighbour is open the cell, cut by least squares (the given plan), is cut once more by void's centroid.
 /// That counts where it leaves no first moment off by more than a tenth of the void's volume. Nothing is tried where
 /// the bodies miss 30 times that volume already: at a curved interface.
-KOKKOS_INLINE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &field, CellComponents const &components,
-                                                   SliverBounds const &films, RemovalPlan const &plan)
+HARMOS_LARGE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &field, CellComponents const &components,
+                                                  SliverBounds const &films, RemovalPlan const &plan)
 {
   constexpr double least_miss = 0.1, most_miss = 30.0; // of the void's volume
   int const last = components.count - 1;

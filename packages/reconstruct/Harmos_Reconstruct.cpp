@@ -22,7 +22,8 @@ struct CellStatus
 };
 
 /// Positions in which components are removed: as listed, then by material, void last.
-KOKKOS_FUNCTION void givenOrder(CellComponents const &components, View<int *> const &listed, int order[max_components])
+HARMOS_LARGE_FUNCTION void givenOrder(CellComponents const &components, View<int *> const &listed,
+                                      int order[max_components])
 {
   ComponentSet left = components.all();
   int count = 0;
@@ -39,8 +40,8 @@ KOKKOS_FUNCTION void givenOrder(CellComponents const &components, View<int *> co
       order[count++] = k;
 }
 
-KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellComponents const &components,
-                                        ReconstructionOptions const &options)
+HARMOS_LARGE_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellComponents const &components,
+                                              ReconstructionOptions const &options)
 {
   SliverBounds const slivers = sliverBounds(field, components, options.sliver);
   if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0 ||
@@ -70,7 +71,8 @@ KOKKOS_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, CellCo
 }
 
 /// The plan that a cell was cut by; without components where there is none for those that it has now.
-KOKKOS_FUNCTION RemovalPlan formerPlan(CellComponents const &components, FilledRegions const &before, int num_pairs)
+HARMOS_LARGE_FUNCTION RemovalPlan formerPlan(CellComponents const &components, FilledRegions const &before,
+                                             int num_pairs)
 {
   RemovalPlan plan;
   int const first = before.cell_region(components.cell);
@@ -93,8 +95,8 @@ KOKKOS_FUNCTION RemovalPlan formerPlan(CellComponents const &components, FilledR
 }
 
 /// Cut the cell as planned, write the materials' regions, and return the largest volume error.
-KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, RemovalPlan const &plan,
-                                        FilledRegions const &regions, int num_pairs)
+HARMOS_LARGE_FUNCTION CellStatus writeRegions(CellComponents const &components, RemovalPlan const &plan,
+                                              FilledRegions const &regions, int num_pairs)
 {
   CellStatus status{0.0, false, false, plan.unfinished > 0, -1};
   int const first = regions.cell_region(components.cell);
@@ -183,8 +185,8 @@ KOKKOS_FUNCTION CellStatus writeRegions(CellComponents const &components, Remova
 }
 
 /// \param before Not without cells: its cuts are kept where they can be (refill).
-KOKKOS_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, ReconstructionOptions const &options,
-                                           FilledRegions const &before, FilledRegions const &regions, int cell)
+HARMOS_LARGE_FUNCTION CellStatus reconstructCell(ReconstructionField const &field, ReconstructionOptions const &options,
+                                                 FilledRegions const &before, FilledRegions const &regions, int cell)
 {
   int const num_pairs = field.pairs.offset(cell + 1) - field.pairs.offset(cell);
   if (componentCount(field, cell) > max_components)

@@ -75,8 +75,8 @@ struct SliverBounds
 /// A body that fills less than `film_volume` here and less than a tenth of every neighbour is a fragment, or a thread
 /// thinner than a cell, and no tip of a body beyond. Placed by its centroid, the end of a thread was a speck that found
 /// its way through other bodies, and the thread after it; least squares lay it along the face that it meets.
-KOKKOS_INLINE_FUNCTION SliverBounds sliverBounds(ReconstructionField const &field, CellComponents const &components,
-                                                 double sliver)
+HARMOS_LARGE_FUNCTION SliverBounds sliverBounds(ReconstructionField const &field, CellComponents const &components,
+                                                double sliver)
 {
   constexpr double thick = 0.1; // fraction of a neighbour
   double const large = Math::max(sliver, film_volume);
@@ -129,9 +129,9 @@ struct CutNormal
 
 /// Youngs: along the gradient of (fraction of the inside - fraction of the outside). Moment-of-fluid: by least squares
 /// where the smaller side is a sliver, else from the centroid of the side that is exact alone, or of the smaller one.
-KOKKOS_INLINE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, CellComponents const &components,
-                                           ReconstructionMethod method, SliverBounds const &slivers,
-                                           Region const &polygon, ComponentSet inside, ComponentSet outside)
+HARMOS_LARGE_FUNCTION CutNormal cutNormal(ReconstructionField const &field, CellComponents const &components,
+                                          ReconstructionMethod method, SliverBounds const &slivers,
+                                          Region const &polygon, ComponentSet inside, ComponentSet outside)
 {
   if (method == ReconstructionMethod::Youngs)
   {
@@ -188,8 +188,8 @@ KOKKOS_INLINE_FUNCTION bool beyondAnother(CellComponents const &components, Sliv
 /// component and into its neighbour, whatever their sizes. But the first moment of a tip of 1e-5 of the cell, at the
 /// wrong end of it, is less than what a bent face misses: that tells nothing of the side that it is on.
 /// \param n Normal of the line that cuts the region off.
-KOKKOS_INLINE_FUNCTION double momentError(CellComponents const &components, SliverBounds const &slivers,
-                                          Region const &region, int k, Vector2 const &n)
+HARMOS_LARGE_FUNCTION double momentError(CellComponents const &components, SliverBounds const &slivers,
+                                         Region const &region, int k, Vector2 const &n)
 {
   double const volume = components.volume[k];
   bool const sliver = volume < slivers.of(components, k);
@@ -230,9 +230,9 @@ KOKKOS_INLINE_FUNCTION void forEachPart(CellComponents const &components, Remova
 }
 
 /// Removal in a given order.
-KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, CellComponents const &components,
-                                             ReconstructionMethod method, SliverBounds const &slivers,
-                                             int const order[max_components])
+HARMOS_LARGE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, CellComponents const &components,
+                                            ReconstructionMethod method, SliverBounds const &slivers,
+                                            int const order[max_components])
 {
   RemovalPlan plan;
   plan.count = components.count;
@@ -260,8 +260,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, C
 /// behind it (a whole one where faces run on straight). Where the neighbours hold little of the sliver's set, whichever
 /// way it is counted, no line fits: the mean of (fraction behind - fraction)^2 is (1/4 - fraction)^2 / 8 or more. Zero
 /// where the cell lacks neighbours.
-KOKKOS_INLINE_FUNCTION double leastSliverPenalty(ReconstructionField const &field, CellComponents const &components,
-                                                 ComponentSet others)
+HARMOS_LARGE_FUNCTION double leastSliverPenalty(ReconstructionField const &field, CellComponents const &components,
+                                                ComponentSet others)
 {
   constexpr double behind = 0.25;
   constexpr int usual_count = 8;
@@ -283,8 +283,8 @@ KOKKOS_INLINE_FUNCTION double leastSliverPenalty(ReconstructionField const &fiel
 /// others miss: their noise would turn that face, or end it at a wedge of void.
 ///
 /// Ahn & Shashkov, J. Comput. Phys. 226 (2007) 2096-2132, with first moments in place of centroids.
-KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, CellComponents const &components,
-                                            SliverBounds const &slivers)
+HARMOS_LARGE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, CellComponents const &components,
+                                           SliverBounds const &slivers)
 {
   constexpr int max_count = max_exhaustive_components;
   Region polygon[max_count];
@@ -355,8 +355,8 @@ KOKKOS_INLINE_FUNCTION RemovalPlan bestPlan(ReconstructionField const &field, Ce
 }
 
 /// One component after the other, each time the one whose cut has the least centroid error.
-KOKKOS_INLINE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, CellComponents const &components,
-                                              SliverBounds const &slivers)
+HARMOS_LARGE_FUNCTION RemovalPlan greedyPlan(ReconstructionField const &field, CellComponents const &components,
+                                             SliverBounds const &slivers)
 {
   RemovalPlan plan;
   plan.count = components.count;

@@ -25,7 +25,7 @@ inline Material metal(double density)
   return m;
 }
 
-/// A disc that hits a block, in the unit square between slip walls; cells of h = 1/40.
+/// A disc that hits a block, in the unit square between slip walls; cells of h = 1/40 or another.
 struct Impact
 {
   Exchange alone;
@@ -36,9 +36,9 @@ struct Impact
   Vector2 impulse = {0.0, 0.0};
   long long failures = 0;
 
-  Impact()
+  explicit Impact(int cells_a_side = 40)
   {
-    std::vector<double> const lines = gradedCoordinates(0.0, 1.0, 40, 1.0);
+    std::vector<double> const lines = gradedCoordinates(0.0, 1.0, cells_a_side, 1.0);
     scene.mesh = buildMesh(rectilinearMesh(lines, lines));
     scene.boundary = buildBoundaryConditions(scene.mesh, deviceCopy("boundary", std::vector<Boundary>(4)));
     scene.materials = deviceCopy("materials", std::vector<Material>{metal(8930.0), metal(2700.0)});

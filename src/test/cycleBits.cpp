@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints the bits of the state after some cycles of a disc that hits a block, in one number: the same for any number of
-// threads (see test same_bits_on_any_number_of_threads).
+// threads (see test same_bits_on_any_number_of_threads). Then sums to compare by eye where the bits may differ: other
+// compilers, another Kokkos, a GPU.
 #include "Impact.hpp"
 
 #include <cstdint>
@@ -34,6 +35,12 @@ void run()
   hash(state.state.velocity, bits);
   std::printf("%d pairs, %lld contact rows, bits %016llx\n", state.pairs.num_pairs, rows,
               static_cast<unsigned long long>(bits));
+  auto const sum = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), impact.sums());
+  std::printf("%s: t = %.12e s\n", ExecutionSpace::name(), state.time);
+  for (std::size_t material = 0; material < sum.extent(0); ++material)
+    std::printf("material %d: momentum %.9e %.9e N s/m, energy %.9e kinetic, %.9e internal J/m\n",
+                static_cast<int>(material), sum(material, SumMomentumX), sum(material, SumMomentumY),
+                sum(material, SumKineticEnergy), sum(material, SumInternalEnergy));
 }
 
 } // namespace

@@ -13,19 +13,21 @@ namespace
 {
 
 /// Nodes swing about their places by a third of a cell, those of walls along them.
+void swingTo(double time, View<double *[2]> const &reference, View<double *[2]> const &target)
+{
+  double const a = 0.008 * std::sin(2.0 * Math::pi * time / 4e-5);
+  Kokkos::parallel_for(
+      "swing", RangePolicy(0, static_cast<int>(target.extent(0))), KOKKOS_LAMBDA(int node) {
+        double const x = reference(node, 0), y = reference(node, 1);
+        target(node, 0) = x + a * Math::sin(3.0 * Math::pi * x) * Math::cos(2.0 * Math::pi * y);
+        target(node, 1) = y + a * Math::cos(2.0 * Math::pi * x) * Math::sin(3.0 * Math::pi * y);
+      });
+}
+
 TargetMesh swing(View<double *[2]> const &reference)
 {
   return [reference](Mesh const &, CycleState const &s, double dt, View<double *[2]> const &target)
-  {
-    double const phase = std::sin(2.0 * Math::pi * (s.time + dt) / 4e-5);
-    double const a = 0.008 * phase;
-    Kokkos::parallel_for(
-        "swing", RangePolicy(0, static_cast<int>(target.extent(0))), KOKKOS_LAMBDA(int node) {
-          double const x = reference(node, 0), y = reference(node, 1);
-          target(node, 0) = x + a * Math::sin(3.0 * Math::pi * x) * Math::cos(2.0 * Math::pi * y);
-          target(node, 1) = y + a * Math::cos(2.0 * Math::pi * x) * Math::sin(3.0 * Math::pi * y);
-        });
-  };
+  { swingTo(s.time + dt, reference, target); };
 }
 
 } // namespace

@@ -61,6 +61,25 @@ double worstStraightLine(double sliver, bool with_void)
   return worst;
 }
 
+/// By cell: Youngs' gradient of the first component, and the least-squares one.
+View<double *[4]> bothGradients(ReconstructionField const &field)
+{
+  View<double *[4]> const gradient("gradient", field.mesh.num_cells);
+  Kokkos::parallel_for(
+      "gradients", RangePolicy(0, field.mesh.num_cells), KOKKOS_LAMBDA(int const cell) {
+        CellComponents const components = cellComponents(field, cell, false);
+        Vector2 const youngs = (1.0 / components.size) * youngsGradient(field, components, {1u, 0u});
+        Vector2 const fitted = (1.0 / components.size) *
+                               leastSquaresGradient(field, components, CellNeighbours(field, components), {1u, 0u});
+        for (int d = 0; d < 2; ++d)
+        {
+          gradient(cell, d) = youngs[d];
+          gradient(cell, 2 + d) = fitted[d];
+        }
+      });
+  return gradient;
+}
+
 } // namespace
 
 TEST(Reconstruct, straightLinesOnShakenQuads_momentOfFluidIsExact)
@@ -252,20 +271,7 @@ TEST(Reconstruct, bothGradients_areExactForLinearFractionsOnShakenQuads)
                               return std::vector<Fill>{{0, (0.2 + 0.1 * x[0] + 0.05 * x[1]) * area(quad), x}};
                             });
   ReconstructionField const field{scene.mesh, scene.pairs, scene.state.record, scene.state.centroid};
-  View<double *[4]> const gradient("gradient", mesh.num_cells);
-  Kokkos::parallel_for(
-      "gradients", RangePolicy(0, mesh.num_cells), KOKKOS_LAMBDA(int const cell) {
-        CellComponents const components = cellComponents(field, cell, false);
-        Vector2 const youngs = (1.0 / components.size) * youngsGradient(field, components, {1u, 0u});
-        Vector2 const fitted = (1.0 / components.size) *
-                               leastSquaresGradient(field, components, CellNeighbours(field, components), {1u, 0u});
-        for (int d = 0; d < 2; ++d)
-        {
-          gradient(cell, d) = youngs[d];
-          gradient(cell, 2 + d) = fitted[d];
-        }
-      });
-  auto const host = onHost(gradient);
+  auto const host = onHost(bothGradients(field));
   for (int cell = 0; cell < mesh.num_cells; ++cell)
     for (int i = 0; i < 4; ++i)
       EXPECT_NEAR(host(cell, i), i % 2 == 0 ? 0.1 : 0.05, 1e-13) << "cell " << cell;

@@ -12,8 +12,12 @@ namespace RemapDetail
 {
 
 /// Fields of stage 2: StageField and PairField in one numbering, then the velocities of the four corners.
-constexpr int num_stage_fields = 16;
-constexpr int first_corner_field = 8; // u, v of corner 0, 1, 2, 3
+/// Enumerators, since Views take their indices by reference: CUDA's device code cannot refer to a host's constant.
+enum StageFieldCount : int
+{
+  first_corner_field = 8, // u, v of corner 0, 1, 2, 3
+  num_stage_fields = 16
+};
 
 /// One value of every field.
 struct StageFields
