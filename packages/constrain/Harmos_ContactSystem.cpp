@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactSystem.hpp>
 #include <Harmos_RowSums.hpp>
+#include <Harmos_SharedNodes.hpp>
 
 namespace Harmos
 {
@@ -91,23 +92,6 @@ void numberDofs(ContactRows const &rows, int num_dof_nodes, ContactSystem &syste
   system.rows_of = {offset, item};
 }
 
-/// Whether a rigid material moves a dof node that all materials share.
-KOKKOS_INLINE_FUNCTION bool movedByARigidOne(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
-                                             NodeMaterialPairs const &dof_nodes, int dof)
-{
-  if (dof_nodes.material(dof) >= 0 || bodies.of_material.extent(0) == 0)
-    return false;
-  bool rigid = false;
-  int const node = dof_nodes.node(dof);
-  for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
-  {
-    int const cell = mesh.node_cell.item(i) / 4;
-    for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
-      rigid = rigid || bodies.of_material(pairs.material(pair)) >= 0;
-  }
-  return rigid;
-}
-
 /// Masses and node conditions of the contact dofs. A dof node that keeps the velocity of a rigid material is as one
 /// that conditions hold.
 void gatherDofs(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,
@@ -116,7 +100,8 @@ void gatherDofs(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable cons
 {
   View<double *> const inverse_mass = work.unset<double *>("Harmos::constrain::inverse_mass", system.num_dofs);
   View<NodeCondition *> const condition = work.unset<NodeCondition *>("Harmos::constrain::condition", system.num_dofs);
-  View<int *> const dof_node = system.dof_node;
+  View<int *> const dof_node = system.dof_node, of_material = bodies.of_material;
+  bool const any_rigid = of_material.extent(0) > 0;
   launchFor(
       "Harmos::constrain::gatherDofs", system.num_dofs, KOKKOS_LAMBDA(int i) {
         int const dof = dof_node(i);
@@ -124,7 +109,8 @@ void gatherDofs(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable cons
         int const index = conditions.node_index(dof_nodes.node(dof));
         NodeCondition const none;
         condition(i) = index >= 0 ? conditions.condition(index) : none;
-        if (movedByARigidOne(mesh, pairs, bodies, dof_nodes, dof))
+        auto const is_rigid = [&](int material) { return of_material(material) >= 0; };
+        if (any_rigid && movedByARigidOne(mesh, pairs, dof_nodes, dof, is_rigid))
           condition(i).count = 2;
       });
   system.inverse_mass = inverse_mass;

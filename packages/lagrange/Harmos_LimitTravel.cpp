@@ -3,6 +3,7 @@
 
 #include <Harmos_JoinReducer.hpp>
 #include <Harmos_Select.hpp>
+#include <Harmos_SharedNodes.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -35,24 +36,11 @@ struct SlowLight
 
   KOKKOS_INLINE_FUNCTION Vector2 velocity(int dof) const { return {half(dof, 0), half(dof, 1)}; }
 
-  /// Whether a rigid material moves a dof node that all materials share.
-  KOKKOS_INLINE_FUNCTION bool movedByARigidOne(int dof) const
-  {
-    bool rigid = false;
-    int const node = dof_nodes.node(dof);
-    for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1) && dof_nodes.material(dof) < 0; ++i)
-    {
-      int const cell = mesh.node_cell.item(i) / 4;
-      for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
-        rigid = rigid || materials(pairs.material(pair)).rigid_body >= 0;
-    }
-    return rigid;
-  }
-
   /// The part of a change of velocity that conditions and rigid materials leave to a dof node.
   KOKKOS_INLINE_FUNCTION Vector2 project(int dof, Vector2 const &change) const
   {
-    if (movedByARigidOne(dof))
+    auto const is_rigid = [this](int material) { return materials(material).rigid_body >= 0; };
+    if (movedByARigidOne(mesh, pairs, dof_nodes, dof, is_rigid))
       return {0.0, 0.0};
     int const condition = boundary.node_index(dof_nodes.node(dof));
     return condition < 0 ? change : boundary.condition(condition).project(change);
