@@ -36,20 +36,6 @@ struct UpdateSums
   }
 };
 
-int valueAt(View<int *> const &view, int index)
-{
-  int value = -1;
-  Kokkos::deep_copy(value, Kokkos::subview(view, index));
-  return value;
-}
-
-TimeStepLimit limitFrom(detail::LargestRate const &largest, CellMaterialPairs const &pairs)
-{
-  if (largest.index < 0)
-    return {std::numeric_limits<double>::infinity(), -1, -1};
-  return {1.0 / largest.rate, valueAt(pairs.cell, largest.index), valueAt(pairs.material, largest.index)};
-}
-
 /// - sum_I f_I . v_mean_I, the power of the nodes on the pairs.
 KOKKOS_FORCEINLINE_FUNCTION Pack cornerPower(RowPointer<double, 8> const &corner_force, int const pair[pack_width],
                                              bool run, detail::Corners<Pack> const &before,
@@ -220,22 +206,6 @@ UpdateSums launch(Mesh const &mesh, CellMaterialPairs const &pairs, PairState co
   return result;
 }
 
-/// Volume and tr D of a cell, at any velocity.
-KOKKOS_INLINE_FUNCTION void volumeAndRate(Geometry geometry, detail::Corners<double> const &x,
-                                          detail::Corners<double> const &v, double &volume, double &rate)
-{
-  if (geometry == Geometry::Planar)
-  {
-    auto const b = detail::meanGradient(x);
-    volume = b.area;
-    rate = detail::traceOf(detail::velocityGradient(b, v)) / volume;
-    return;
-  }
-  auto const b = detail::ringGradient(x);
-  volume = b.volume;
-  rate = detail::traceOf(detail::velocityGradient(b, v)) / volume;
-}
-
 } // namespace
 
 UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
@@ -244,20 +214,20 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
 {
   auto const launcher = mesh.geometry == Geometry::Planar ? launch<Geometry::Planar> : launch<Geometry::Axisymmetric>;
   UpdateSums const result = launcher(mesh, pairs, state, materials, options, dt, kick, work);
-  next = limitFrom(result.largest, pairs);
+  next = detail::limitFrom(result.largest, pairs);
   UpdateReport report;
   report.inverted = result.inverted;
   report.not_a_number = result.not_a_number;
   report.out_of_range = result.out_of_range;
   if (result.first_pair >= 0)
   {
-    report.cell = valueAt(pairs.cell, result.first_pair);
-    report.material = valueAt(pairs.material, result.first_pair);
+    report.cell = detail::valueAt(pairs.cell, result.first_pair);
+    report.material = detail::valueAt(pairs.material, result.first_pair);
   }
   if (result.first_out_of_range >= 0)
   {
-    report.range_cell = valueAt(pairs.cell, result.first_out_of_range);
-    report.range_material = valueAt(pairs.material, result.first_out_of_range);
+    report.range_cell = detail::valueAt(pairs.cell, result.first_out_of_range);
+    report.range_material = detail::valueAt(pairs.material, result.first_out_of_range);
   }
   return report;
 }
@@ -285,19 +255,14 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
           largest.include(detail::rigidPairRate(limits, x, v), pair);
           return;
         }
-        auto const b = detail::meanGradient(x);
-        double const inverse = 1.0 / b.area;
-        double volume, rate;
-        volumeAndRate(mesh.geometry, x, v, volume, rate);
-        detail::StepGeometry<double> const geometry{
-            b.area, volume, detail::longestMidlineSquared(b) * inverse * inverse, Math::max(-rate, 0.0)};
+        detail::StepGeometry<double> const geometry = detail::stepGeometry(mesh.geometry, x, v);
         double const sv = record(pair, SpecificVolume), e = record(pair, InternalEnergy);
         EosState<double> const eos = equationOfState(material, sv, e);
         double const acoustic = detail::acousticRate(material, options, geometry, eos, sv, e);
         largest.include(detail::pairRate(pairs, dof_mass, limits, pair, v, geometry, acoustic, sv), pair);
       },
       JoinReducer<detail::LargestRate>(result));
-  return limitFrom(result, pairs);
+  return detail::limitFrom(result, pairs);
 }
 
 } // namespace Harmos

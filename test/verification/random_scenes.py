@@ -92,7 +92,7 @@ def closed(name, r):
     check(f"{name}: energy", r.summary["energy_error"], 1e-11)
     check(f"{name}: mass", r.summary["mass_error"], 1e-12)
     check(f"{name}: momentum", r.summary["momentum_error"], 1e-10)
-    check(f"{name}: given by contact, of the energy there is", -min(r["contact_loss"]) / energy, 0.5)
+    check(f"{name}: given by contact, of the energy there is", -min(r["contact_loss"]) / energy, 0.01)
 
 
 def test_scenes_that_once_broke_keep_their_ledgers():

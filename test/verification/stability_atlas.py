@@ -7,7 +7,7 @@ stability_atlas.py [--quick] [--jobs N] [--output FOLDER]: writes stability-atla
 import argparse
 import concurrent.futures
 import pathlib
-from math import cos, exp, radians, sin, sqrt
+from math import cos, exp, radians, sin, sqrt, tan
 
 import contact_iterations
 import contact_scenes
@@ -33,6 +33,7 @@ METHODS = {
 CUTS = [0.5, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12]
 TEE_LOAD = 0.1  # of a thousandth of the bulk modulus
 COURANTS = [0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95]
+OBLIQUE = [(20.0, 0.3), (45.0, 0.3), (20.0, 0.0), (45.0, 0.0)]  # angle of the interface, shear modulus
 CONTRASTS = [1.0, 1e3, 1e6]
 BLOCKS = [(0.0, (0.0, 0.0)), (0.0, (0.31, 0.17)), (30.0, (0.31, 0.17))]  # angle, offset in cells; the first slides along a cell face
 REFINEMENTS = [1, 2, 4, 8]  # of a box four cells high
@@ -47,34 +48,54 @@ Where each way to constrain the interfaces fails. Written by `test/verification/
 """
 
 
-def stays_bounded(method, cut, courant, density=1.0, stiffness=1.0):
-    """Two blocks under stored elastic energy, the right one denser and stiffer by the given factors, without any viscosity: no kinetic
-    energy beyond what was stored."""
-    x = 8.0 + cut
+def mean_step(method, courant, settings, left_area, wave):
+    """Two blocks that fill a box of unit cells under the elastic energy stored in the left one, without any viscosity: mean step over the
+    time in which a wave crosses a cell; zero where there ever is more kinetic energy than was stored."""
     r = harmos(ROOT / "test/verification/decks/sliver.yaml", {
-        "bodies/left/center": f"[{x / 2!r}, 2.0]", "bodies/left/size": f"[{x!r}, 4.0]",
-        "bodies/right/center": f"[{(16.0 + x) / 2!r}, 2.0]", "bodies/right/size": f"[{16.0 - x!r}, 4.0]",
         "numerics/linear_viscosity": 0.0, "numerics/quadratic_viscosity": 0.0, "numerics/hourglass_viscosity": 0.0,
-        "materials/other": f"{{eos: stiffened, density: {density!r}, sound_speed: {sqrt(stiffness / density)!r}, strength: elastic, shear_modulus: {0.3 * stiffness!r}}}",
-        "bodies/right/material": "other",
         "numerics/remap/merge_below": 0.0, "numerics/courant": courant, "run/max_cycles": 400,
-        "output/history/every_cycles": 5, **METHODS[method]}, expect=None)
-    stored = 0.5 * 0.001**2 * 32.0
+        "output/history/every_cycles": 5, **settings, **METHODS[method]}, expect=None)
+    stored = 0.5 * 0.001**2 * left_area
     bounded = r.status == 0 and max(r["kinetic_energy"]) <= 1.05 * stored
+    step = r.last("time") / r.last("cycle") * wave if bounded else 0.0
     clean(r)
-    return bounded
+    return step
 
 
-def largest_courant(method, cut, density=1.0, stiffness=1.0):
-    """By bisection of the list; zero where none is stable."""
-    low, high = 0, len(COURANTS)
+def law(density, stiffness, shear=0.3):
+    """Of two, and the wave speed of the first of them alone."""
+    strength = f", strength: elastic, shear_modulus: {shear * stiffness!r}" if shear > 0.0 else ""
+    return f"{{eos: stiffened, density: {density!r}, sound_speed: {sqrt(stiffness / density)!r}{strength}}}", sqrt((1.0 + 4.0 / 3.0 * shear) * stiffness / density)
+
+
+def upright(cut, density=1.0, stiffness=1.0):
+    """The interface lies a part of a cell beyond a cell face; the right block is denser and stiffer by the given factors."""
+    x = 8.0 + cut
+    other, other_wave = law(density, stiffness)
+    return {"bodies/left/center": f"[{x / 2!r}, 2.0]", "bodies/left/size": f"[{x!r}, 4.0]",
+            "bodies/right/center": f"[{(16.0 + x) / 2!r}, 2.0]", "bodies/right/size": f"[{16.0 - x!r}, 4.0]",
+            "materials/other": other, "bodies/right/material": "other"}, 4.0 * x, max(law(1.0, 1.0)[1], other_wave)
+
+
+def oblique(angle, shear):
+    n, at = (cos(radians(angle)), sin(radians(angle))), (8.31, 2.17)
+    half = lambda sign, pressure: f"{{material: metal, shape: half-plane, point: [{at[0]}, {at[1]}], normal: [{sign * n[0]!r}, {sign * n[1]!r}], pressure: {pressure}}}"
+    metal, wave = law(1.0, 1.0, shear)
+    return {"bodies/left": half(1.0, 0.001), "bodies/right": half(-1.0, 0.0), "materials/metal": metal}, 4.0 * (at[0] + (at[1] - 2.0) * tan(radians(angle))), wave
+
+
+def largest_courant(method, scene):
+    """The largest of COURANTS that is stable, by bisection, and the mean step that it took; zero where none is."""
+    low, high, steps = 0, len(COURANTS), [0.0]
     while low < high:
         middle = (low + high) // 2
-        if stays_bounded(method, cut, COURANTS[middle], density, stiffness):
+        step = mean_step(method, COURANTS[middle], *scene)
+        if step > 0.0:
             low = middle + 1
+            steps.append(step)
         else:
             high = middle
-    return COURANTS[low - 1] if low > 0 else 0.0
+    return (COURANTS[low - 1] if low > 0 else 0.0), steps[-1]
 
 
 def block(method, angle, offset, pressure):
@@ -190,10 +211,13 @@ def measure(quick, jobs):
     def one(method):
         f = {}
         for cut in cuts:
-            f["stable Courant, cut " + f"{cut:.0e}"] = largest_courant(method, cut)
+            f["stable Courant, cut " + f"{cut:.0e}"] = largest_courant(method, upright(cut))[0]
         for contrast in contrasts[1:]:
-            f[f"stable Courant, density {contrast:.0e}"] = largest_courant(method, 1e-4, density=contrast)
-            f[f"stable Courant, stiffness {contrast:.0e}"] = largest_courant(method, 1e-4, stiffness=contrast)
+            f[f"stable Courant, density {contrast:.0e}"] = largest_courant(method, upright(1e-4, density=contrast))[0]
+            f[f"stable Courant, stiffness {contrast:.0e}"] = largest_courant(method, upright(1e-4, stiffness=contrast))[0]
+        for angle, shear in OBLIQUE[-1:] if quick else OBLIQUE:
+            name = f"{angle:.0f} degrees" + ("" if shear > 0.0 else ", no strength")
+            f[f"stable step, {name}"] = largest_courant(method, oblique(angle, shear))[1]
         for name, pressure in (("unloaded", 0.0), ("squeezed", SQUEEZE)):
             runs = [block(method, angle, offset, pressure) for angle, offset in blocks]
             for key in ("momentum", "penetration", "iterations", "most iterations", "energy"):
@@ -308,6 +332,8 @@ def write(found, sections, folder):
 EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 at which two blocks under stored elastic energy, without any viscosity, never hold more kinetic energy than was stored, by 5%, over 400 cycles; the interface
   lies the given part of a cell beyond a cell face (`decks/sliver.yaml`). The material alone (`single`) is stable at 0.999 too, the largest tried (decks take less than 1), and so are multipliers at midpoints and mortar multipliers at all seven cuts. 0: at none of them.
 - **stable Courant, density and stiffness**: the same where the right block is denser or stiffer by the factor, at a cut of 1e-4 of a cell.
+- **stable step**: the same two blocks, alike, with an interface at 20 and 45 degrees to the mesh, and without shear strength: the mean step at the largest Courant number that is stable, over the time in which a wave crosses a cell.
+  Parts of cut cells can have steeper gradients than their cells, and the step heeds them ([decision 0028](decisions/0028-steps-that-cut-cells-allow.md)): where multipliers are below 0.95 the step was shortened, not the run lost.
 - **block**: `example/sliding_block`, 8 cells over the block, half a length of slip, the worst of three: at 0 degrees along a cell face and 0.17 cells beside it, and at 30 degrees: change of the momentum along the platens over m V; penetration (overlap of moved regions) summed over the run, in cells; iterations a cycle, mean and most;
   energy that contact took, or gave, over the energy at the start. Rigid platens give the rows' normals ([decision 0022](decisions/0022-rigid-surfaces-give-the-normal.md)), so that whatever slides keeps its momentum to round-off, whichever the method, where it does not fail. Slivers lie by their centroids; with `sliver: 1e-3` penalties and Nitsche fail beside the face and at 30 degrees too: light films gain energy.
 - **T of three blocks**: two blocks on a third that slides below them, all deformable and squeezed between platens (load 0.1 of a thousandth of the bulk modulus), at 15 degrees to the mesh: largest difference of the slider's momentum from that of body-fitted blocks, over m V (these gain 9.4e-7).

@@ -2,7 +2,9 @@
 #ifndef HARMOS_LARGEST_RATE_HPP
 #define HARMOS_LARGEST_RATE_HPP
 
-#include <Harmos_Kokkos.hpp>
+#include <Harmos_Lagrange.hpp>
+
+#include <limits>
 
 namespace Harmos
 {
@@ -29,6 +31,21 @@ struct LargestRate
       include(other.rate, other.index);
   }
 };
+
+inline int valueAt(View<int *> const &view, int index)
+{
+  int value = -1;
+  Kokkos::deep_copy(value, Kokkos::subview(view, index));
+  return value;
+}
+
+/// Of the largest 1 / dt, by pair.
+inline TimeStepLimit limitFrom(LargestRate const &largest, CellMaterialPairs const &pairs)
+{
+  if (largest.index < 0)
+    return {std::numeric_limits<double>::infinity(), -1, -1};
+  return {1.0 / largest.rate, valueAt(pairs.cell, largest.index), valueAt(pairs.material, largest.index)};
+}
 
 } // namespace detail
 } // namespace Harmos

@@ -97,8 +97,9 @@ HARMOS_RARE_FUNCTION inline unsigned selectLanes(int const *material_of, int fir
   return lanes;
 }
 
-/// Visit pack number `block` of the pairs from `begin` to `end` in parts of one material: visit(material, pair, lanes), bit l of `lanes` set
-/// where lane l is to be stored. The other lanes repeat a pair of the part, so that every lane holds something sound.
+/// Visit pack number `block` of the pairs from `begin` to `end` in parts of one material: visit(material, pair, lanes),
+/// bit l of `lanes` set where lane l is to be stored. The other lanes repeat a pair of the part, so that every lane
+/// holds something sound.
 ///
 /// One call of `visit`, so that there is one compiled copy of its arithmetic: two might round differently.
 template <class Visitor>
@@ -196,6 +197,24 @@ KOKKOS_FORCEINLINE_FUNCTION Pack pairRate(CellMaterialPairs const &pairs, View<d
         double const heavy = largestHeavySpeedSquared(pairs, dof_mass, pair[lane], detail::laneOf(v, lane), least_mass);
         return Math::max(laneOf(rate, lane), Math::sqrt(heavy * laneOf(scale, lane)));
       });
+}
+
+/// What the time step needs of a cell, at any velocity.
+KOKKOS_INLINE_FUNCTION StepGeometry<double> stepGeometry(Geometry geometry, Corners<double> const &x,
+                                                         Corners<double> const &v)
+{
+  MeanGradient<double> const b = meanGradient(x);
+  double volume = b.area, change;
+  if (geometry == Geometry::Planar)
+    change = traceOf(velocityGradient(b, v));
+  else
+  {
+    RingGradient<double> const ring = ringGradient(x);
+    volume = ring.volume;
+    change = traceOf(velocityGradient(ring, v));
+  }
+  double const inverse = 1.0 / b.area;
+  return {b.area, volume, longestMidlineSquared(b) * inverse * inverse, Math::max(-(change / volume), 0.0)};
 }
 
 /// 1 / dt of a rigid pair: its travel through the unmoved cell.
