@@ -64,6 +64,10 @@ def test_block_rubbing_on_an_incline():
     clean(compare("incline/deck.yaml"))
 
 
+def test_steps_that_parts_of_cut_cells_shorten():
+    clean(compare(HERE / "decks/disc_in_a_ring.yaml"))
+
+
 def test_single_velocity_block():
     clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, kinematics="single"), ranks=(4,)))
 
