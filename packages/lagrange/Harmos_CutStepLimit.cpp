@@ -62,7 +62,7 @@ KOKKOS_INLINE_FUNCTION CornerGradients cellGradients(Mesh const &mesh, int cell)
   return result;
 }
 
-/// The pairs of a material in a cell and around it, and what moves there.
+/// The pairs of a material in a cell (the first of them) and around it, and the dof nodes that move them.
 struct Patch
 {
   static constexpr int most_cells = 16, most_nodes = 36;
@@ -87,7 +87,8 @@ struct Patch
     return num_nodes++;
   }
 
-  /// M^-1 K u over the density's part of K, of unit c: stress (1, 1 - 2 g, g) for axial, lateral and shear strains.
+  /// a = M^-1 K u for unit c, node conditions held: stress over rho c^2 is 1, 1 - 2 g and g times axial, lateral and
+  /// shear strain. [1/length^2]
   KOKKOS_INLINE_FUNCTION void apply(double g, Vector2 const u[most_nodes], Vector2 a[most_nodes]) const
   {
     for (int i = 0; i < num_nodes; ++i)
