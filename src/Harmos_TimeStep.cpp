@@ -107,11 +107,11 @@ void moveMesh(Mesh &mesh, NodeMaterialPairs const &dof_nodes, int num_materials,
   updateVolumes(mesh);
 }
 
-/// The step of this cycle is one that is stable in cut cells too. Collective.
-void limitByCutCells(Scene const &scene, CycleState &s)
+/// The step of this cycle is one that is stable in cut cells and at free edges too. Collective.
+void limitAtEdges(Scene const &scene, CycleState &s)
 {
-  TimeStepLimit const limit = cutStepLimit(scene.mesh, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
-                                           scene.materials, scene.lagrange, s.dt, s.work);
+  TimeStepLimit const limit = edgeStepLimit(scene.mesh, s.pairs, s.dof_nodes, s.state, s.regions, scene.boundary,
+                                            scene.materials, scene.lagrange, s.dt, s.work);
   if (limit.dt < s.limit.dt)
     s.limit = limit;
   s.dt = Math::min(s.dt, scene.exchange->min(limit.dt));
@@ -160,11 +160,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     PhaseTimer timer("lagrange", times.lagrange);
     prepareWork(s.pairs, s.dof_nodes, work);
     if (scene.kinematics == Kinematics::Xfem && scene.lagrange.cut_cell_stress != CutCellStress::CellMean)
-    {
       computeCutGradients(mesh, s.pairs, s.state.record, s.regions, scene.materials, scene.lagrange.cut_cell_stress,
                           scene.lagrange.shortest_bent_edge, work.cut);
-      limitByCutCells(scene, s);
-    }
+    limitAtEdges(scene, s);
   }
 
   if (s.cycle == 0)

@@ -194,7 +194,7 @@ void addNumerics(ParameterList &list)
 {
   LagrangeOptions const lagrange;
   add(list, "courant", lagrange.courant, number({0.0, 1.0, true, true}),
-      "part of the time in which a wave crosses a cell that a step takes, or less where parts of cut cells ask for it");
+      "part of the time in which a wave crosses a cell that a step takes, or less where parts of cut cells or free edges ask for it");
   add(list, "linear_viscosity", lagrange.linear_viscosity, number(between(0.0, 10.0)), "artificial, in compression");
   add(list, "quadratic_viscosity", lagrange.quadratic_viscosity, number(between(0.0, 10.0)),
       "artificial, in compression");

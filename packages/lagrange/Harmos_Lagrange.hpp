@@ -255,34 +255,36 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
                              View<Material *> const &materials, LagrangeOptions const &options,
                              LagrangeWork const &work);
 
-/// Largest stable step below `dt` of the owned pairs of cut cells whose stress acts over what they fill, at
-/// state.velocity (needs work.cut of these regions): what gradients beyond the cell's, and free edges, ask for. Where
-/// none asks for less than dt: +infinity, cell -1.
+/// Largest stable step below `dt` of the owned pairs at edges, at state.velocity: of cut cells whose stress acts over
+/// what they fill (work.cut of these regions; empty: none), and, where `courant` is above 0.6, of whole cells with free
+/// edges. Where none asks for less than dt: +infinity, cell -1.
 ///
-/// A pair's element frequencies bound the scheme's, whatever parts of its nodes' masses M it is given, as long as those
-/// of a node sum to one. With parts in proportion to m S, m the pair's mass and S the largest eigenvalue of
-/// sum_I B_I B_I^T,
+/// A pair's element frequencies bound the scheme's, whatever parts of its dof nodes' masses M it is given, as long as
+/// those of a node sum to one. With parts in proportion to s m S, s the corner's share of the pair's mass m, S the
+/// largest eigenvalue of sum_I B_I B_I^T,
 ///
-///   omega^2 <= 4 c^2 lambda, lambda the largest eigenvalue of W = sum_I w_I B_I B_I^T, w_I = <S>_I / S,
+///   omega^2 <= 4 c^2 lambda, lambda the largest eigenvalue of W = sum_I w_I B_I B_I^T, w_I = <S>_I / (4 s_I S),
 ///
-/// <S>_I the mean of S over the material around node I (by mass and mesh.corner_share), counts waves of one direction:
-/// in a full mesh 1 / l^2, as in stableTimeStep. Where the nodes have no mass of neighbours, motions of two directions
-/// meet: lambda + (1 - 2 g) phi (tr W - lambda), g = G / (rho c^2), phi from 0 in a body to 1 in a fragment of one cell
-/// (the mean over the corners of what its part of M has beyond its part of the volume around). A step of 1 / (c
-/// sqrt(lambda)), with viscosity as in stableTimeStep, is 0.80 to 0.97 of the largest stable one (half planes and discs
-/// of 0.3 to 3 cells' radius, g = 0, 0.1, 0.29).
+/// <S>_I the mean of S over what moves with dof node I (by s m), counts waves of one direction: in a full mesh 1 / l^2,
+/// as in stableTimeStep. About an axis W has the hoop, H = N / r: W_rr = sum w (B_r^2 + H^2 + 2 (1 - 2 g) B_r H),
+/// W_rz = sum w (B_r + (1 - 2 g) H) B_z, g = G / (rho c^2). Where the nodes have no mass of neighbours, motions of two
+/// directions meet: lambda + (1 - 2 g) phi (tr W - lambda), phi from 0 in a body to 1 in a fragment of one cell (the
+/// mean over the corners, by their parts of tr W, of what its part of M has beyond its part of the volume around;
+/// beyond free sides of the mesh there is void; 0 where conditions hold all corners). A step of 1 / (c sqrt(lambda)),
+/// with viscosity as in stableTimeStep, is 0.80 to 0.97 of the largest stable one (half planes and discs of 0.3 to 3
+/// cells' radius, g = 0, 0.1, 0.29).
 ///
-/// A pair that by this asks for less than dt gets the frequency of its material in the cells around it, node conditions
-/// included, by ten turns of power iteration. Where edges are free that may miss up to a tenth of the square of the
-/// scheme's: it is added, as far as the term with phi goes. dt is then within 4% of the largest stable one. `courant`
-/// plays no part in either, and the hoop is left out.
+/// A pair that by this asks for less than dt gets the frequency of what shares its dof nodes, node conditions and each
+/// pair's own stiffness included, by ten turns of power iteration. Where edges are free that may miss up to a tenth of
+/// the square of the scheme's: it is added, as far as the term with phi goes. dt is then within 4% of the largest
+/// stable one. `courant` plays no part in what is found.
 ///
 /// \param work Overwrites dof_mass where a pair asks for less than dt.
 /// Hughes, The Finite Element Method (1987), 9.3: element frequencies bound those of the assembly.
-TimeStepLimit cutStepLimit(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
-                           PairState const &state, FilledRegions const &regions, BoundaryConditions const &boundary,
-                           View<Material *> const &materials, LagrangeOptions const &options, double dt,
-                           LagrangeWork &work);
+TimeStepLimit edgeStepLimit(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
+                            PairState const &state, FilledRegions const &regions, BoundaryConditions const &boundary,
+                            View<Material *> const &materials, LagrangeOptions const &options, double dt,
+                            LagrangeWork &work);
 
 /// Mass, momentum and kinetic energy of the owned nodes at a velocity (extent >= num_dof_nodes).
 KineticSums kineticSums(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *> const &dof_mass,

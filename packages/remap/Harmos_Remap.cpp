@@ -301,7 +301,7 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
   if (shares_move)
     in.share = startShares(in);
   Classes const &classes = keepClasses(in, kept);
-  if (classes.num_interface > 0 && kept.links.link.extent(0) == 0)
+  if (classes.num_interface > 0 && kept.links.box.extent(0) == 0)
     kept.links = linkNeighbours(mesh);
   if (classes.num_interface > 0 && !kept.boxed)
     boxCells(mesh, kept.links);

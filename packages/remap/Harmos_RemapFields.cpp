@@ -78,11 +78,11 @@ int remapFields(Mesh const &mesh, View<double *[2]> const &start, CellFields con
   if (!work.scratch)
     work.scratch = std::make_shared<FieldScratch>();
   FieldScratch &kept = *work.scratch;
-  if (kept.neighbours.data() != mesh.cell_neighbour.item.data())
+  if (kept.neighbours.data() != mesh.cell_neighbour.offset.data())
   {
     kept.links = linkNeighbours(mesh);
     kept.rim = rimCells(mesh);
-    kept.neighbours = mesh.cell_neighbour.item;
+    kept.neighbours = mesh.cell_neighbour.offset;
   }
   FieldStage stage;
   stage.mesh = mesh;

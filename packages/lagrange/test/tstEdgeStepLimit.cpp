@@ -14,6 +14,7 @@ namespace
 {
 
 constexpr double no_viscosity = 0.0;
+constexpr double allowance = 0.1; // of a unit cell's square, where edges are free
 
 /// What of a unit cell lies on the inner side of lines.
 Region partOfCell(int i, int j, std::vector<Plane2> const &lines)
@@ -77,7 +78,8 @@ struct CutBody
 
   TimeStepLimit limit(double dt = 10.0)
   {
-    return cutStepLimit(s.mesh, s.pairs, s.dof_nodes, s.state, regions, s.boundary, s.materials, s.options, dt, s.work);
+    return edgeStepLimit(s.mesh, s.pairs, s.dof_nodes, s.state, regions, s.boundary, s.materials, s.options, dt,
+                         s.work);
   }
 
   /// 2 / omega of the largest frequency, by power iteration with the kernels' own strains and forces.
@@ -136,29 +138,39 @@ std::vector<Plane2> squareOf(Vector2 centre, double side, double angle)
   return lines;
 }
 
+std::vector<Plane2> rectangle(Vector2 low, Vector2 high)
+{
+  return {{{-1.0, 0.0}, -low[0]}, {{1.0, 0.0}, high[0]}, {{0.0, -1.0}, -low[1]}, {{0.0, 1.0}, high[1]}};
+}
+
+std::vector<BoundaryKind> axisOnTheLeft()
+{
+  return {BoundaryKind::SlipWall, BoundaryKind::Outflow, BoundaryKind::Outflow, BoundaryKind::Outflow};
+}
+
 } // namespace
 
-TEST(CutStepLimit, TriangleOfFluidAlone_isItsElementsExactStep)
+TEST(EdgeStepLimit, TriangleOfFluidAlone_hasItsExactStepButForTheAllowance)
 {
   // Straight edges: gradients (-1, -1), (1, 0), (0, 0), (0, 1) of the corners, a quarter of the mass at each of them:
   // omega^2 = 4 c^2 sum_I |B_I|^2 = 16 c^2.
-  double const root = std::sqrt(0.5);
+  double const root = std::sqrt(0.5), c = speedOf(fluid());
   CutBody body(3, {{{-1.0, 0.0}, -1.0}, {{0.0, -1.0}, -1.0}, {{root, root}, root * 3.0}}, fluid());
-  EXPECT_NEAR(body.limit().dt, 0.5 / speedOf(fluid()), 1e-12);
-  EXPECT_NEAR(body.stableStep(), 0.5 / speedOf(fluid()), 1e-6);
+  EXPECT_NEAR(body.stableStep(), 0.5 / c, 1e-6);
+  EXPECT_NEAR(body.limit().dt, 1.0 / (c * std::sqrt(4.0 + allowance)), 1e-12);
   EXPECT_EQ(body.limit().cell, 4);
   EXPECT_EQ(body.limit().material, 0);
 }
 
-TEST(CutStepLimit, Viscosity_entersAsInPureCells)
+TEST(EdgeStepLimit, Viscosity_entersAsInPureCells)
 {
   double const root = std::sqrt(0.5);
   CutBody body(3, {{{-1.0, 0.0}, -1.0}, {{0.0, -1.0}, -1.0}, {{root, root}, root * 3.0}}, fluid(), 0.06);
-  double const c = speedOf(fluid()), q = 0.06 * c * 2.0; // c1 c L / l, l = 1/2
-  EXPECT_NEAR(body.limit().dt, 0.5 / (q + std::sqrt(q * q + c * c)), 1e-12);
+  double const c = speedOf(fluid()), lambda = 4.0 + allowance, q = 0.06 * c * lambda;
+  EXPECT_NEAR(body.limit().dt, 1.0 / (q + std::sqrt(q * q + c * c * lambda)), 1e-12);
 }
 
-TEST(CutStepLimit, ObliqueBodies_areNearWhatTheirLargestFrequencyAllows)
+TEST(EdgeStepLimit, ObliqueBodies_areNearWhatTheirLargestFrequencyAllows)
 {
   for (Material const &material : {fluid(), elastic()})
     for (double const angle : {0.0, 0.2, 0.7})
@@ -171,7 +183,7 @@ TEST(CutStepLimit, ObliqueBodies_areNearWhatTheirLargestFrequencyAllows)
       }
 }
 
-TEST(CutStepLimit, SliverAlongAFaceOfABody_leavesTheStepOfFullCells)
+TEST(EdgeStepLimit, SliverAlongAFaceOfABody_leavesTheStepOfFullCells)
 {
   for (double const sliver : {1e-2, 1e-4})
   {
@@ -181,7 +193,7 @@ TEST(CutStepLimit, SliverAlongAFaceOfABody_leavesTheStepOfFullCells)
   }
 }
 
-TEST(CutStepLimit, CellMeans_askForNothing)
+TEST(EdgeStepLimit, CellMeans_askForNothing)
 {
   CutBody body(8, squareOf({4.13, 3.9}, 5.0, 0.7), elastic());
   body.s.options.cut_cell_stress = CutCellStress::Fluids;
@@ -189,11 +201,76 @@ TEST(CutStepLimit, CellMeans_askForNothing)
   EXPECT_EQ(body.limit().cell, -1);
 }
 
-TEST(CutStepLimit, PartOfACellBetweenSlipWalls_isABarOfOneDimension)
+TEST(EdgeStepLimit, PartOfACellBetweenSlipWalls_isABarOfOneDimension)
 {
   CutBody bar(1, {{{1.0, 0.0}, 0.5}}, elastic(), no_viscosity, Geometry::Planar,
               {BoundaryKind::Outflow, BoundaryKind::Outflow, BoundaryKind::SlipWall, BoundaryKind::SlipWall});
   EXPECT_EQ(bar.limit(0.99 / speedOf(elastic())).cell, -1);
   CutBody free(1, {{{1.0, 0.0}, 0.5}}, elastic());
   EXPECT_EQ(free.limit(0.99 / speedOf(elastic())).cell, 0);
+}
+
+TEST(EdgeStepLimit, WholeCellOfFluidAlone_hasItsExactStepButForTheAllowance)
+{
+  CutBody body(3, rectangle({1.0, 1.0}, {2.0, 2.0}), fluid());
+  double const c = speedOf(fluid());
+  EXPECT_EQ(body.limit().cell, -1); // the options' Courant number is below what any whole cell asks for
+  body.s.options.courant = 0.9;
+  EXPECT_NEAR(body.stableStep(), std::sqrt(0.5) / c, 1e-6);
+  EXPECT_NEAR(body.limit().dt, 1.0 / (c * std::sqrt(2.0 + allowance)), 1e-12);
+  EXPECT_EQ(body.limit().cell, 4);
+  EXPECT_EQ(body.limit(0.68 / c).cell, -1);
+}
+
+TEST(EdgeStepLimit, WholeCellsAtFreeEdges_areNearWhatTheirLargestFrequencyAllows)
+{
+  for (Material const &material : {fluid(), elastic()})
+    for (Vector2 const size :
+         {Vector2{1.0, 1.0}, Vector2{1.0, 5.0}, Vector2{2.0, 2.0}, Vector2{2.0, 5.0}, Vector2{4.0, 5.0}})
+    {
+      CutBody body(8, rectangle({1.0, 1.0}, Vector2{1.0, 1.0} + size), material);
+      body.s.options.courant = 0.9;
+      double const limit = body.limit().dt, stable = body.stableStep();
+      EXPECT_GE(stable, 0.96 * limit) << size[0] << " x " << size[1];
+      EXPECT_LE(stable, 1.05 * limit) << size[0] << " x " << size[1];
+    }
+}
+
+TEST(EdgeStepLimit, WholeCellsAboutAnAxis_feelTheHoop)
+{
+  for (Material const &material : {fluid(), elastic()})
+    for (double const inner : {0.0, 1.0, 4.0})
+      for (Vector2 const size : {Vector2{1.0, 1.0}, Vector2{2.0, 1.0}, Vector2{1.0, 4.0}, Vector2{3.0, 3.0}})
+      {
+        CutBody body(8, rectangle({inner, 1.0}, Vector2{inner, 1.0} + size), material, no_viscosity,
+                     Geometry::Axisymmetric, axisOnTheLeft());
+        body.s.options.courant = 0.9;
+        double const limit = body.limit().dt, stable = body.stableStep();
+        EXPECT_GE(stable, 0.96 * limit) << inner << ": " << size[0] << " x " << size[1];
+        EXPECT_LE(stable, 1.05 * limit) << inner << ": " << size[0] << " x " << size[1];
+      }
+}
+
+TEST(EdgeStepLimit, BodiesThatFillTheMesh_areFreeAtItsSides)
+{
+  for (Material const &material : {fluid(), elastic()})
+    for (Geometry const geometry : {Geometry::Planar, Geometry::Axisymmetric})
+      for (int const n : {1, 2, 5})
+      {
+        CutBody body(n, {}, material, no_viscosity, geometry,
+                     geometry == Geometry::Planar ? std::vector<BoundaryKind>(4, BoundaryKind::Outflow)
+                                                  : axisOnTheLeft());
+        body.s.options.courant = 0.9;
+        double const limit = body.limit().dt, stable = body.stableStep();
+        EXPECT_GE(stable, 0.96 * limit) << n;
+        EXPECT_LE(stable, 1.05 * limit) << n;
+      }
+}
+
+TEST(EdgeStepLimit, EndOfABarBetweenSlipWalls_asksForNothing)
+{
+  CutBody bar(2, rectangle({0.0, 0.0}, {1.0, 2.0}), fluid(), no_viscosity, Geometry::Planar,
+              {BoundaryKind::Outflow, BoundaryKind::Outflow, BoundaryKind::SlipWall, BoundaryKind::SlipWall});
+  bar.s.options.courant = 0.99;
+  EXPECT_GT(bar.limit(0.99 / speedOf(fluid())).dt, 0.95 / speedOf(fluid()));
 }
