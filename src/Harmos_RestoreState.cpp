@@ -140,8 +140,11 @@ void restoreState(Run &run)
   restoreTracers(run, arrayOf(scalars, "tracers"));
   restoreBonds(run, arrayOf(scalars, "bond_tracers"), arrayOf(scalars, "bonds"));
   std::vector<double> const &force = arrayOf(scalars, "contact_force");
-  for (std::size_t i = 0; i + 3 <= force.size(); i += 3)
-    s.force.push_back({static_cast<long long>(force[i]), force[i + 1], force[i + 2]});
+  for (std::size_t i = 0; i + 4 <= force.size(); i += 4)
+  {
+    long long const high = static_cast<long long>(force[i]), low = static_cast<long long>(force[i + 1]);
+    s.force.push_back({high * (1LL << 32) + low, force[i + 2], force[i + 3]});
+  }
   std::vector<double> const &ended = arrayOf(scalars, "ended");
   run.start = {true, false, s.cycle, s.time, ended.at(0) != 0.0, ended.at(1) != 0.0};
   run.first_cycle = s.cycle;

@@ -310,7 +310,8 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   scalars.arrays["bonds"] = bonds;
   std::vector<double> force;
   for (ContactForce const &f : state.force)
-    force.insert(force.end(), {static_cast<double>(f.key), f.normal, f.tangential});
+    force.insert(force.end(), {static_cast<double>(f.key >> 32), static_cast<double>(f.key & 0xffffffffLL), f.normal,
+                               f.tangential}); // a double holds 53 bits of a key
   scalars.arrays["contact_force"] = force;
   scalars.deck = deck_.yaml;
   scalars.version = version();

@@ -382,10 +382,13 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
 {
   Run run(deck, options, comm);
   setUp(run);
+  if (run.start.restarted && finished(run))
+  {
+    warn(run, "nothing is left to do: the checkpoint has reached run/end_time or run/max_cycles; no file is touched");
+    return Completed;
+  }
   claimDirectory(run);
   RunOutput output(deck, options, comm, run.start);
-  if (run.start.restarted && finished(run))
-    warn(run, "nothing is left to do: the checkpoint has reached run/end_time or run/max_cycles");
   try
   {
     ExitStatus const status = loop(run, output);

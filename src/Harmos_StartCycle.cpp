@@ -6,6 +6,7 @@
 #include <Harmos_Failure.hpp>
 #include <Harmos_FlowStress.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,22 @@ std::vector<double> impedances(std::vector<Material> const &materials)
                          : law.density0 * std::sqrt(longitudinalSoundSpeedSquared(law, bulk, sv, law.energy0)));
   }
   return result;
+}
+
+/// By material: the largest density of its law and of the state, on any rank. Collective. [kg/m^3]
+std::vector<double> largestDensities(Scene const &scene, CycleState const &s, std::vector<Material> const &laws)
+{
+  std::vector<double> largest;
+  for (Material const &law : laws)
+    largest.push_back(law.density0);
+  auto const record = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.state.record);
+  auto const material = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), s.pairs.material);
+  for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
+    if (record(pair, SpecificVolume) > 0.0)
+      largest[material(pair)] = std::max(largest[material(pair)], 1.0 / record(pair, SpecificVolume));
+  for (double &density : largest)
+    density = scene.exchange->max(density);
+  return largest;
 }
 
 void require(bool right, std::string const &what)
@@ -101,7 +118,17 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   auto const materials = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.materials);
   std::vector<Material> const laws(materials.data(), materials.data() + materials.extent(0));
   if (scene.constraint.impedance.extent(0) == 0)
-    scene.constraint.impedance = deviceCopy("impedance", impedances(laws));
+  {
+    std::vector<double> const z = impedances(laws);
+    if (scene.constraint.method == ConstraintMethod::Penalty || scene.constraint.method == ConstraintMethod::Nitsche)
+      for (std::size_t m = 0; m < z.size(); ++m)
+        require(
+            z[m] > 0.0 || laws[m].rigid_body >= 0,
+            "scene.constraint.method penalty and nitsche scale with the impedance of the laws' reference states, and "
+            "material " +
+                std::to_string(m) + " has none there; expected: another method, or scene.constraint.impedance");
+    scene.constraint.impedance = deviceCopy("impedance", z);
+  }
   if (scene.constraint.short_segments.extent(0) == 0 && scene.kinematics == Kinematics::Xfem)
     scene.constraint.short_segments = deviceCopy("short_segments", shortSegments(scene, laws));
   if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)
@@ -129,6 +156,7 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
 
   prepareWork(s.pairs, s.dof_nodes, s.work);
   computeNodeAltitudes(scene.mesh, s.work);
+  s.work.largest_density = deviceCopy("largest_density", largestDensities(scene, s, laws));
   computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
   s.limit = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
   s.dt = scene.max_dt;

@@ -70,6 +70,10 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
                                    [](PairInteraction const &law) { return law.restitution > 0.0; });
   check.require(!bounces || method == "multipliers" || method == "nodal", path,
                 "\"" + method + "\" knows no restitution; expected: multipliers or nodal");
+  for (LawSpec const &law : deck.laws)
+    check.require(!is_explicit || law.rigid || law.law.eos != EosKind::IdealGas, path,
+                  "\"" + method + "\" takes its stiffness from the impedance at rest, which the ideal gas " + law.name +
+                      " has not; expected: multipliers, nodal or merged");
   if (method != "nodal" && method != "merged")
     return;
   check.require(deck.kinematics == Kinematics::Xfem, path,
@@ -84,8 +88,10 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
     breaks = breaks || law.strength.limited();
     interacts = interacts || law.kind != Interaction::Sliding;
   }
-  check.require(!breaks, path, "\"" + method + "\" knows no strength of a bond; expected: multipliers | penalty | nitsche");
-  check.require(method == "nodal" || !interacts, path, "\"merged\" ties whatever shares a node; expected: no interactions");
+  check.require(!breaks, path,
+                "\"" + method + "\" knows no strength of a bond; expected: multipliers | penalty | nitsche");
+  check.require(method == "nodal" || !interacts, path,
+                "\"merged\" ties whatever shares a node; expected: no interactions");
 }
 
 } // namespace

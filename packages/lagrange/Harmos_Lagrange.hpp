@@ -53,6 +53,8 @@ struct LagrangeWork
   View<double *[2]> constrained;  // itself where nothing has changed that
   View<double *> node_altitude;   // num_nodes: least altitude of the cells around [length]
   double largest_cell = 0.0;      // volume; with the altitudes
+  View<double *> largest_density; // by material, at the start: ten times that bounds what limitTravel takes for light;
+                                  // extent 0: the laws' reference densities
   CutGradients cut;               // of this time's filled regions; empty: no cut cell is told from a pure one
   View<double *> gradient_square; // by row of cut: largest eigenvalue of sum_I B_I B_I^T [1/length^2]
   View<double *[3]> before;       // num_pairs, BeforeField: what failPairs needs of time n

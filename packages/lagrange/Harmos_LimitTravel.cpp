@@ -32,7 +32,8 @@ struct SlowLight
   View<int *> slowed_with; // dof nodes: the pair whose mean velocity a slowed one takes, else -1
   double dt;
   double light_node;
-  double largest_cell = 0.0; // volume
+  double largest_cell = 0.0;           // volume
+  View<double *> largest_density = {}; // LagrangeWork::largest_density
 
   KOKKOS_INLINE_FUNCTION Vector2 velocity(int dof) const { return {half(dof, 0), half(dof, 1)}; }
 
@@ -46,11 +47,15 @@ struct SlowLight
     return condition < 0 ? change : boundary.condition(condition).project(change);
   }
 
-  /// What is not lighter is not light in any cell.
-  KOKKOS_INLINE_FUNCTION double lightMass(int material) const
+  /// Mass of a volume below which a dof node may be light there. [mass/volume]
+  KOKKOS_INLINE_FUNCTION double lightDensity(int material) const
   {
-    return largest_cell * (density_range * light_node * materials(material).density0);
+    double const density = largest_density.extent(0) > 0 ? largest_density(material) : materials(material).density0;
+    return density_range * light_node * density;
   }
+
+  /// What is not lighter is not light in any cell.
+  KOKKOS_INLINE_FUNCTION double lightMass(int material) const { return largest_cell * lightDensity(material); }
 
   /// A first look, which lets all light dof nodes of one deformable material pass.
   KOKKOS_INLINE_FUNCTION bool mayBeLight(int dof) const
@@ -58,7 +63,7 @@ struct SlowLight
     int const own = dof_nodes.material(dof);
     if (own < 0 || materials(own).rigid_body >= 0)
       return false;
-    double const mass_of_volume = density_range * light_node * materials(own).density0;
+    double const mass_of_volume = lightDensity(own);
     if (dof_mass(dof) >= lightMass(own)) // no division where none is light
       return false;
     int const node = dof_nodes.node(dof);
@@ -369,6 +374,7 @@ TravelReport limitTravel(Mesh const &mesh, CellMaterialPairs const &pairs, NodeM
   SlowLight slow{mesh,          pairs,     dof_nodes,          materials, boundary, state.record,
                  work.dof_mass, work.half, work.node_altitude, {},        dt,       options.light_node};
   slow.largest_cell = work.largest_cell;
+  slow.largest_density = work.largest_density;
   Crossing const crossing = largestCrossing(slow);
   if (crossing.light == 0)
   {

@@ -12,7 +12,7 @@ from compare import ROUND_OFF, newest_checkpoint, same_history, same_state
 from harness import Run, check, clean, harmos, run
 
 HERE = pathlib.Path(__file__).resolve().parent
-BALL, BLOCKS = HERE / "rigid_ball.yaml", HERE / "two_blocks.yaml"
+BALL, BLOCKS, HEAP = HERE / "rigid_ball.yaml", HERE / "two_blocks.yaml", HERE / "decks/heap.yaml"
 DISC, BLOCK = "disc_through_plate/deck.yaml", "sliding_block/deck.yaml"
 QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": "false"}
 TABLES = ("history.csv", "contact.csv", "probes.csv", "tracers.csv")
@@ -223,9 +223,22 @@ def test_mesh_and_bodies_stay_and_other_changes_are_named():
     assert "materials/hard/density" in r.text and "keep their mass" in r.text and not other.exists(), r.text
     r = harmos(BALL, {**stop({}, 40), "materials/aluminium/density": 2701.0}, directory=other, extra=good)
     assert any("materials/aluminium/density" in text for text in r.summary["warnings"]), r.summary["warnings"]
-    r = harmos(BALL, stop({}, 20), directory=other, extra=[*good, "--force"])
-    assert any("nothing is left to do" in text for text in r.summary["warnings"]), r.summary["warnings"]
     clean(part, r)
+
+
+def test_warm_starts_of_rigid_bodies_go_on_as_they_were():
+    # The keys of their rows take more digits than a double has.
+    for stopped in (100, 150, 200):
+        clean(*goes_on(HEAP, {"numerics/constraint/warm_start": "true", "output/history/every_cycles": 1}, cycles=(stopped, 240), every=stopped // 2))
+
+
+def test_a_restart_with_nothing_left_to_do_touches_no_file():
+    whole = harmos(BALL, {**stop({}, 30), "output/checkpoint/at_end": "true", "output/fields/at_end": "true"})
+    before = contents(whole.directory)
+    for cycles in (20, 30):
+        r = harmos(BALL, stop({}, cycles), directory=whole.directory, extra=["--restart", str(newest_checkpoint(whole.directory))])
+        assert "nothing is left to do" in r.text and contents(whole.directory) == before, r.text
+    clean(whole)
 
 
 def test_sigusr1_reaches_all_ranks_through_mpiexec():

@@ -46,9 +46,11 @@ TEST(DeckContact, theDefault_hasItsKeysBesideIt)
 TEST(DeckContact, everyMethodHasItsWord)
 {
   EXPECT_EQ(read({}).constraint.method, ConstraintMethod::Multipliers);
-  EXPECT_EQ(read({"numerics/constraint/method=penalty"}).constraint.method, ConstraintMethod::Penalty);
-  EXPECT_EQ(read({"numerics/constraint={method: nitsche, penalty: 0.3}"}).constraint.method, ConstraintMethod::Nitsche);
-  EXPECT_EQ(read({"numerics/constraint={method: nitsche, penalty: 0.3}"}).constraint.penalty, 0.3);
+  std::string const liquid = "materials/air={eos: stiffened, density: 1.2, sound_speed: 340.0}";
+  EXPECT_EQ(read({liquid, "numerics/constraint/method=penalty"}).constraint.method, ConstraintMethod::Penalty);
+  Deck const nitsche = read({liquid, "numerics/constraint={method: nitsche, penalty: 0.3}"});
+  EXPECT_EQ(nitsche.constraint.method, ConstraintMethod::Nitsche);
+  EXPECT_EQ(nitsche.constraint.penalty, 0.3);
   std::string const open = "boundaries/top={type: outflow}"; // the example has a contact wall there
   std::string const slides = "interactions={default: sliding}";
   EXPECT_EQ(read({slides, open, "numerics/constraint/method=nodal"}).constraint.method, ConstraintMethod::Nodal);
@@ -99,6 +101,10 @@ TEST(DeckContact, whatHasNoMeaning_isRefused)
   expectRefused({"numerics/constraint/method=penalty",
                  "bodies/lower={material: platen, shape: disc, center: [0, 0], radius: 1, motion: free}"},
                 "deck.yaml: numerics/constraint/method: \"penalty\" takes its stiffness from deformable bodies");
+  for (std::string const method : {"penalty", "nitsche"})
+    expectRefused(
+        {"numerics/constraint/method=" + method, "materials/steel={eos: ideal gas, gamma: 1.4, density: 1.0}"},
+        "deck.yaml: numerics/constraint/method: \"" + method + "\" takes its stiffness from the impedance at rest");
   std::string const open = "boundaries/top={type: outflow}";
   expectRefused({open, "numerics/constraint/method=nodal"},
                 "deck.yaml: numerics/constraint/method: \"nodal\" knows no strength");
