@@ -201,6 +201,8 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.broken_bonds = std::llround(run.ledger.broken_bonds);
   s.merged_fragments = std::llround(run.ledger.merged);
   s.bounded_volumes = std::llround(run.ledger.bounded);
+  s.slowed_light_nodes = std::llround(run.ledger.light_nodes);
+  s.repeated_cycles = std::llround(run.ledger.repeats);
   s.closed_void_volume = run.ledger.closed_volume;
   s.greedy_cells = std::llround(run.ledger.greedy_cells);
   s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);

@@ -321,8 +321,9 @@ bool reboundWhereStruck(ContactRows const &rows, Motion const &before, Motion co
         if (r.tied || r.restitution == 0.0 || out.struck || !(impulse(i, 0) > 0.0))
           return;
         double const along = dot(r.normal, relativeVelocity(r, predicted.velocity, predicted.bodies));
+        double const asked = rebound(r, along, before, dt);
         out.struck = true;
-        out.predicted[0] = rebound(r, along, before, dt);
+        out.predicted[0] = movablePart(s, r, i, 0) < least_movable_part ? Math::max(0.0, asked) : asked;
         any = 1.0;
       },
       Kokkos::Max<double>(found));

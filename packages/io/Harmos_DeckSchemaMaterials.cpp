@@ -130,8 +130,8 @@ void addMaterials(ParameterList &materials)
       add(solid, "internal_energy", 0.0, number(any, "J/kg"), "internal energy e0 of the reference state");
     }
     add(solid, "tension_limit", 0.0, number(not_negative, "Pa"),
-        "the pressure does not fall below minus this (spall strength; the material then stretches without more "
-        "resistance); 0: no limit");
+        "the pressure does not fall below minus this (a cut-off: the material then stretches without more resistance, "
+        "where spall_pressure opens void); 0: no limit");
     addSpall(solid);
     addStrength(solid);
   }

@@ -4,7 +4,7 @@
 #include <Harmos_EquationOfState.hpp>
 #include <Harmos_OnHost.hpp>
 
-#include <detail/Harmos_InterfaceSegments.hpp>
+#include <detail/Harmos_OpenEdges.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -100,6 +100,8 @@ std::string summaryText(Summary const &s)
   object.add("broken_bonds", s.broken_bonds);
   object.add("merged_fragments", s.merged_fragments);
   object.add("bounded_specific_volumes", s.bounded_volumes);
+  object.add("slowed_light_nodes", s.slowed_light_nodes);
+  object.add("repeated_cycles", s.repeated_cycles);
   object.add("closed_void_volume", s.closed_void_volume);
   object.add("greedy_cells", s.greedy_cells);
   object.add("unfinished_interfaces", s.unfinished_interfaces);

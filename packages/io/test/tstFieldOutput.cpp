@@ -8,7 +8,7 @@
 
 #include <detail/Harmos_AtomicFile.hpp>
 #include <detail/Harmos_Hdf5File.hpp>
-#include <detail/Harmos_InterfaceSegments.hpp>
+#include <detail/Harmos_OpenEdges.hpp>
 
 #include <gtest/gtest.h>
 

@@ -215,6 +215,8 @@ TEST(Summary, file_holdsEveryKeyInOrder)
                           "broken_bonds",
                           "merged_fragments",
                           "bounded_specific_volumes",
+                          "slowed_light_nodes",
+                          "repeated_cycles",
                           "closed_void_volume",
                           "greedy_cells",
                           "unfinished_interfaces",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Clip.hpp>
 #include <Harmos_MomentOfFluid.hpp>
-#include <Harmos_PlicOffset.hpp>
 
 #include <gtest/gtest.h>
 
@@ -51,29 +50,7 @@ Region unitSquare()
 
 } // namespace
 
-TEST(PlicOffset, randomConvexPolygons_anyFraction_volumeIsExact)
-{
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  double worst = 0.0, worst_clipped = 0.0;
-  for (int i = 0; i < 20000; ++i)
-  {
-    Region const polygon = randomConvexPolygon(random, 3 + i % 8);
-    double const small = std::pow(10.0, -12.0 * uniform(random));
-    double const volume = i % 2 == 0 ? small : 1.0 - small;
-    Vector2 const normal = direction(2.0 * Math::pi * uniform(random));
-    PlicOffset const result = plicOffset(polygon, normal, volume, 1e-14);
-    EXPECT_TRUE(result.converged) << "volume " << volume << " error " << result.volume_error;
-    worst = std::max(worst, result.volume_error);
-    Region below;
-    clip(polygon, Plane2{normal, result.offset}, below);
-    worst_clipped = std::max(worst_clipped, std::fabs(area(below) - volume));
-  }
-  EXPECT_LT(worst, 1e-14);
-  EXPECT_LT(worst_clipped, 1e-14);
-}
-
-TEST(PlicOffset, tinyFractions_lowestVertexAtOrigin_volumeKeepsRelativeAccuracy)
+TEST(LineCut, tinyFractions_lowestVertexAtOrigin_volumeKeepsRelativeAccuracy)
 {
   Region const square = unitSquare();
   for (double const volume : {1e-3, 1e-6, 1e-9, 1e-12})
@@ -85,25 +62,6 @@ TEST(PlicOffset, tinyFractions_lowestVertexAtOrigin_volumeKeepsRelativeAccuracy)
       EXPECT_NEAR(area(partBelow(square, cut)) / volume, 1.0, 1e-12) << volume << " at " << angle;
     }
   }
-}
-
-TEST(PlicOffset, edgesParallelToTheLine_offsetIsTheFraction)
-{
-  Region const square = unitSquare();
-  for (double const volume : {0.0, 1e-12, 0.25, 0.5, 0.75, 1.0 - 1e-12, 1.0})
-    for (int side = 0; side < 4; ++side)
-    {
-      Vector2 const normals[4] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
-      PlicOffset const result = plicOffset(square, normals[side], volume, 1e-14);
-      EXPECT_TRUE(result.converged);
-      EXPECT_NEAR(result.offset, side < 2 ? volume : volume - 1.0, 1e-15);
-    }
-}
-
-TEST(PlicOffset, targetOutsideTheCell_isNotConverged)
-{
-  EXPECT_FALSE(plicOffset(unitSquare(), {1.0, 0.0}, 1.1, 1e-14).converged);
-  EXPECT_FALSE(plicOffset(unitSquare(), {1.0, 0.0}, -0.1, 1e-14).converged);
 }
 
 TEST(LineCut, bothPartsTogether_areThePolygonAndShareTheChord)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef HARMOS_INTERFACE_SEGMENTS_HPP
-#define HARMOS_INTERFACE_SEGMENTS_HPP
+#ifndef HARMOS_OPEN_EDGES_HPP
+#define HARMOS_OPEN_EDGES_HPP
 
 #include <Harmos_Polygon.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <detail/Harmos_InterfaceSegments.hpp>
+#include <detail/Harmos_OpenEdges.hpp>
 
 #include <algorithm>
 
