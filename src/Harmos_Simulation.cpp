@@ -225,6 +225,27 @@ void noteErrors(Run &run)
   noteErrors(run.scene.mesh.geometry, totals, run.ledger);
 }
 
+/// Bodies that go through each other do so without an error of mass, momentum or energy: the sum of what their regions
+/// overlapped tells.
+void warnOfOverlaps(Run &run)
+{
+  constexpr double sizeable = 0.05; // of what all materials fill
+  Totals const totals = computeTotals(run.scene, run.state, static_cast<int>(run.deck.fields.size()), false);
+  double filled = 0.0;
+  for (HistoryMaterial const &material : totals.material)
+    filled += material.volume;
+  double const part = filled > 0.0 ? run.ledger.overlap_volume / filled : 0.0;
+  if (part <= sizeable)
+    return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "materials were moved into each other by %.0f%% of what they fill, summed over the run (overlap_volume): "
+      "look whether they go through each other",
+      100.0 * part);
+  warn(run, text);
+}
+
 bool finished(Run const &run)
 {
   return run.state.time >= run.deck.run.end_time * (1.0 - 1e-12) ||
@@ -395,6 +416,7 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
   {
     ExitStatus const status = loop(run, output);
     noteErrors(run);
+    warnOfOverlaps(run);
     run.progress.finish();
     writeRunSummary(run, status == Completed ? "completed" : "interrupted");
     return status;

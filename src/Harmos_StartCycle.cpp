@@ -140,6 +140,13 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
       exact.push_back(law.rigid_body >= 0 ? 1 : 0);
     scene.reconstruction.exact = deviceCopy("exact", exact);
   }
+  if (scene.reconstruction.fluid.extent(0) == 0)
+  {
+    std::vector<int> fluid;
+    for (Material const &law : laws)
+      fluid.push_back(law.rigid_body < 0 && law.strength == StrengthKind::None ? 1 : 0);
+    scene.reconstruction.fluid = deviceCopy("fluid", fluid);
+  }
   bool can_fail = false;
   for (Material const &law : laws)
     can_fail = can_fail || canFail(law);

@@ -124,7 +124,8 @@ struct RowBuilder
     InterfaceSegment const &b = segment(facing_it);
     Vector2 n = exactNormal(a, b);
     if (n[0] == 0.0 && n[1] == 0.0)
-      n = contactNormal(segment, facing, options.shortest_segment, a, facing_it);
+      n = contactNormal(segment, facing, options.shortest_segment, a, facing_it,
+                        bearing.isPressed(a) || bearing.isPressed(b));
     return dot(a.normal, n) < fit_least_cosine ? Vector2{0.0, 0.0} : n;
   }
 

@@ -241,18 +241,74 @@ KOKKOS_INLINE_FUNCTION double reweigh(FitSamples const &s, ParabolaFit const &fi
   return laneSum(misfit);
 }
 
+/// A normal and how well the samples that it takes lie on its parabola.
+struct NormalGuess
+{
+  Vector2 normal;
+  double misfit; // mean squared, of all samples [cells^2]
+};
+
+/// Three passes of the fit from a first normal, two where the first leaves next to no misfit.
+/// \param total Of the weights.
+KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2 n, double total, FitFrame &frame)
+{
+  // Weights then hardly differ from one, and the ridge is at its least: a third pass turned normals by 1e-10 at most.
+  constexpr double next_to_none = 1e-3; // root mean square misfit [cells]
+  int passes = 3;
+  double kappa = 0.1; // the curvature's ridge
+  double last_misfit = 0.0;
+  for (int pass = 1; pass <= passes; ++pass)
+  {
+    ParabolaFit const fit = fitParabola(fitMoments(samples, n, pass > 1, frame), kappa);
+    if (pass < passes)
+    {
+      double const misfit = reweigh(samples, fit, frame);
+      last_misfit = misfit / total;
+      kappa = Math::min(1.0, Math::max(misfit / total, 0.003 * 0.003) / 0.01);
+      if (misfit <= next_to_none * next_to_none * total)
+        passes = 2;
+    }
+    double const beta = Math::clamp(fit.beta, -1.0, 1.0);
+    n = normalised(n + beta * perpendicular(n)); // n - beta t with t = -perpendicular(n)
+  }
+  return {n, last_misfit};
+}
+
+/// Whether the samples that lie within 45 degrees of a normal are a smooth face that tells it: a cell of them, all but
+/// a hundredth on one parabola to 3e-3 cells.
+KOKKOS_INLINE_FUNCTION bool isFace(FitSamples const &samples, Vector2 const &n, FitFrame &frame)
+{
+  constexpr double least_weight = 1.0, most_miss = 3e-3, most_off = 0.01;
+  ParabolaFit const fit = fitParabola(fitMoments(samples, n, false, frame), 0.1);
+  double taken = 0.0, off = 0.0;
+  for (int j = 0; j < samples.count; ++j)
+  {
+    double const t = frame.t[j], alpha = samples.of_b[j] > 0.5 ? fit.alpha[1] : fit.alpha[0];
+    double const r = frame.y[j] - alpha - fit.beta * t - 0.5 * fit.gamma * (t * t + frame.spread[j]);
+    double const d = frame.slope[j] - fit.beta - fit.gamma * t, weight = samples.weight[j] * frame.taken[j];
+    taken += weight;
+    off += r * r + frame.spread[j] * d * d > most_miss * most_miss ? weight : 0.0;
+  }
+  return taken >= least_weight && off <= most_off * taken;
+}
+
 /// \brief Normal of the interface between two materials at a point, from the segments of both around it.
 ///
 /// A robust local parabola, shared in slope and curvature by the two sides, each with its own offset; the curvature's
 /// ridge follows from the fit's own misfit, so that flat interfaces are averaged and curved ones are not flattened.
 /// Three passes: fit, turn the frame by the slope beta (|beta| <= 1), reweigh. Two where the first one leaves next to
-/// no misfit. Before them the weights follow the gaps (weighByGaps).
+/// no misfit. Before them the weights follow the gaps (weighByGaps). They begin with the samples' mean normal.
 ///
 /// \param samples  Segments around the point; those of zero weight count for nothing. Its weights are changed.
-/// \param fallback Unit vector; returned when the samples have no mean normal (no sample at all).
+/// \param fallback Unit vector, of the segment and the one that it faces; returned when the samples have no mean normal
+///                 (no sample at all).
+/// \param keeps_faces Beside a corner of one body inside of another the mean is that of both faces: where it leaves a
+///                    large misfit, and what lies within 45 degrees of `fallback` is a flat face (isFace), the passes
+///                    begin with that one.
 /// \return Unit normal from a to b.
-KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback)
+KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool keeps_faces = false)
 {
+  constexpr double large_misfit = 0.05; // root mean square [cells]
   samples.fillPack();
   weighByGaps(samples);
   Pack mean_x = 0.0, mean_y = 0.0, weights = 0.0;
@@ -268,26 +324,11 @@ KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fal
   double const total = laneSum(weights);
   if (!(norm(mean) > 0.0))
     return fallback;
-  // Weights then hardly differ from one, and the ridge is at its least: a third pass turned normals by 1e-10 at most.
-  constexpr double next_to_none = 1e-3; // root mean square misfit [cells]
-  int passes = 3;
-  Vector2 n = normalised(mean);
-  double kappa = 0.1; // the curvature's ridge
   FitFrame frame;
-  for (int pass = 1; pass <= passes; ++pass)
-  {
-    ParabolaFit const fit = fitParabola(fitMoments(samples, n, pass > 1, frame), kappa);
-    if (pass < passes)
-    {
-      double const misfit = reweigh(samples, fit, frame);
-      kappa = Math::min(1.0, Math::max(misfit / total, 0.003 * 0.003) / 0.01);
-      if (misfit <= next_to_none * next_to_none * total)
-        passes = 2;
-    }
-    double const beta = Math::clamp(fit.beta, -1.0, 1.0);
-    n = normalised(n + beta * perpendicular(n)); // n - beta t with t = -perpendicular(n)
-  }
-  return n;
+  NormalGuess const guess = turnNormal(samples, normalised(mean), total, frame);
+  if (keeps_faces && guess.misfit > large_misfit * large_misfit && isFace(samples, fallback, frame))
+    return turnNormal(samples, fallback, total, frame).normal;
+  return guess.normal;
 }
 
 } // namespace Harmos

@@ -20,6 +20,12 @@ struct SegmentBearing
     return material >= 0 && of_material.extent(0) > 0 ? of_material(material) : ShortSegments::Dropped;
   }
 
+  /// Whether a segment is of a fluid, whose pressure acts along all of its outline.
+  KOKKOS_INLINE_FUNCTION bool isPressed(InterfaceSegment const &a) const
+  {
+    return shortSegments(a.material) == ShortSegments::Kept;
+  }
+
   /// What balances the traction of segment a, where both sides of an interface end in its cell: beside a wall there is
   /// no cell that is full. Halves of segments do so for mortar multipliers; elsewhere two points want to be apart.
   KOKKOS_INLINE_FUNCTION ShortSegments balance(InterfaceSegment const &a, InterfaceSegment const &b) const

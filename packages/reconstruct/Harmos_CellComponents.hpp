@@ -21,6 +21,7 @@ struct ReconstructionField
   View<double *[num_pair_fields]> record;
   View<double *[2]> centroid; // read where centroids are used
   View<int *> exact = {};     // materials: 1 where volumes and centroids are those of the body's shape; extent 0: none
+  View<int *> fluid = {};     // materials: 1 where it has no strength; extent 0: none
 };
 
 /// The components of a mixed cell (its materials, ascending, then void where there is some) in the cell's own

@@ -169,7 +169,7 @@ KOKKOS_INLINE_FUNCTION double straightMisfit(ReconstructionField const &field, C
 /// Whether a body's matter has flowed in a cell.
 KOKKOS_INLINE_FUNCTION bool hasFlowed(ReconstructionField const &field, CellComponents const &components, int body)
 {
-  return hasFlowed(field.record(field.pairs.offset(components.cell) + body, PlasticStrain));
+  return hasFlowed(field.record(field.pairs.find(components.cell, components.material[body]), PlasticStrain));
 }
 
 /// The corner of a body in the polygon that it shares with void, where two lines are exact and one is not: an error of
@@ -268,14 +268,119 @@ KOKKOS_INLINE_FUNCTION bool cutsTips(CellComponents const &components, Region co
   return norm(one.chord_end - one.chord_begin) < longest && norm(two.chord_end - two.chord_begin) < longest;
 }
 
+/// What lies around a convex corner: all of a polygon but what two divisions, the second of the first one's inside,
+/// leave of it. Not convex. Empty where their lines do not meet in the polygon.
+HARMOS_LARGE_FUNCTION Region aroundCorner(Division const &one, Division const &two)
+{
+  auto const same = [](Vector2 const &a, Vector2 const &b) { return a[0] == b[0] && a[1] == b[1]; };
+  Region const &first = one.outside, &second = two.outside;
+  int begin = -1; // of the first part's way around that ends with the chord
+  for (int i = 0; i < first.size; ++i)
+  {
+    Vector2 const &a = first[i], &b = first[(i + 1) % first.size];
+    if ((same(a, one.chord_begin) && same(b, one.chord_end)) || (same(a, one.chord_end) && same(b, one.chord_begin)))
+      begin = (i + 1) % first.size;
+  }
+  int shared = -1, num_shared = 0; // end of the first chord that the second line cuts off
+  for (int i = 0; i < second.size; ++i)
+    if (same(second[i], one.chord_begin) || same(second[i], one.chord_end))
+    {
+      shared = i;
+      ++num_shared;
+    }
+  Region around;
+  if (begin < 0 || num_shared != 1 || first.size + second.size - 1 > max_region_vertices)
+    return around;
+  for (int i = 0; i < first.size; ++i)
+    around.push(first[(begin + i) % first.size]);
+  for (int i = 1; i < second.size; ++i)
+    around.push(second[(shared + i) % second.size]);
+  return around;
+}
+
+/// Void, of the cell, that is a film between a body and what lies around its corner.
+constexpr double most_void_around = 1e-5;
+
+/// The regions of a body with a corner inside of another one. What void there is lies between them, along the second
+/// line.
+struct EmbeddedCorner
+{
+  Region inside, around; // empty where the lines do not meet in the cell
+};
+
+HARMOS_LARGE_FUNCTION EmbeddedCorner embeddedCorner(CellComponents const &components, int body, int other,
+                                                    Vector2 const &first, Vector2 const &second, double first_part)
+{
+  double const own = components.volume[body], rest = components.volume[other] - first_part;
+  double const open = components.count > 2 ? components.volume[2] : 0.0;
+  Division const one = divide(components.polygon, first, own + open + rest, first_part, components.weight);
+  Division const two = divide(one.inside, second, own + open, rest, components.weight);
+  EmbeddedCorner corner;
+  corner.around = aroundCorner(one, two);
+  if (!corner.around.empty())
+    corner.inside = open > 0.0 ? divide(two.inside, second, own, open, components.weight).inside : two.inside;
+  return corner;
+}
+
+/// Two bodies that fill a cell (but for a film of void), none a sliver, neither has flowed, and a straight line does
+/// not leave them as they are: where one ends in a convex corner inside of the other, two lines leave both as they are.
+///
+/// One of them is a fluid: its pressure acts on every side of its region, and drives it out at the ends of a chord.
+HARMOS_LARGE_FUNCTION RemovalPlan embeddedCornerPlan(ReconstructionField const &field, CellComponents const &components,
+                                                     SliverBounds const &slivers, RemovalPlan const &given)
+{
+  for (int k = 0; k < 2; ++k)
+    if (components.volume[k] < slivers.of(components, k) || hasFlowed(field, components, k))
+      return given;
+  for (int body = 0; body < 2; ++body)
+  {
+    int const other = 1 - body;
+    CellComponents ordered = components; // the other one stands where void does
+    ordered.count = 2;
+    ordered.exact = 0u;
+    int const number[2] = {body, other};
+    for (int k = 0; k < 2; ++k)
+    {
+      ordered.material[k] = components.material[number[k]];
+      ordered.volume[k] = components.volume[number[k]];
+      ordered.centroid[k] = components.centroid[number[k]];
+      ordered.exact |= components.isExact(1u << number[k]) ? 1u << k : 0u;
+    }
+    ordered.volume[1] += components.count > 2 ? components.volume[2] : 0.0;
+    Vector2 const normal =
+        momentOfFluidLine(components.polygon, ordered.volume[0], ordered.centroid[0], components.weight).normal;
+    CornerCell const cell = exactCornerCell(field, ordered, 0, components.polygon, nullptr, normal, false);
+    if (cell.error == 1e300)
+      continue;
+    RemovalPlan plan = given;
+    plan.count = components.count;
+    plan.corner = plan.embedded = true;
+    plan.parted = false;
+    plan.set(0, body, cell.normal[0]);
+    plan.set(1, other, cell.normal[1]);
+    if (components.count > 2)
+      plan.set(2, 2, {0.0, 0.0});
+    plan.void_part = Math::min(cell.open, components.volume[other]);
+    plan.error = cell.error;
+    if (!embeddedCorner(components, body, other, plan.normal[0], plan.normal[1], plan.void_part).around.empty())
+      return plan;
+  }
+  return given;
+}
+
 /// Bodies and void, none a sliver, that the given plan does not leave as they are: where one body ends in a convex
 /// corner, alone or beyond another body that a straight line cuts off exactly, two lines between it and the void leave
-/// all as they are.
+/// all as they are. Two bodies without void: embeddedCornerPlan.
 HARMOS_LARGE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, CellComponents const &components,
                                              SliverBounds const &slivers, RemovalPlan const &given)
 {
   constexpr double exact_miss = 1e-20; // squared, of the body that a straight line cuts off
   int const bodies = components.count - 1;
+  bool const filled = components.material[bodies] != void_material;
+  auto const isFluid = [&](int k) { return field.fluid.extent(0) > 0 && field.fluid(components.material[k]) == 1; };
+  if (given.error > removal_tie && components.material[1] != void_material && (isFluid(0) || isFluid(1)) &&
+      (components.count == 2 ? filled : components.count == 3 && !filled && components.volume[2] < most_void_around))
+    return embeddedCornerPlan(field, components, slivers, given);
   if (bodies > 2 || components.material[bodies] != void_material || given.error <= removal_tie)
     return given;
   bool const thin = bodies == 1 && components.volume[1] < slivers.of_void;

@@ -148,6 +148,16 @@ HARMOS_LARGE_FUNCTION CellStatus writeRegions(CellComponents const &components, 
     forgetCuts();
     return status;
   }
+  if (plan.embedded)
+  {
+    int const body = plan.component[0], other = plan.component[1];
+    EmbeddedCorner const corner =
+        embeddedCorner(components, body, other, plan.normal[0], plan.normal[1], plan.void_part);
+    write(corner.inside, body);
+    write(corner.around, other);
+    forgetCuts();
+    return status;
+  }
   if (plan.corner)
   {
     double const open = components.volume[num_pairs], rest = open - plan.void_part;
@@ -310,7 +320,7 @@ FilledRegions cutCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairSta
                        FilledRegions const &before, ReconstructionOptions const &options, ReconstructionReport &report)
 {
   FilledRegions const regions = listMixedCells(mesh, pairs);
-  ReconstructionField const field{mesh, pairs, state.record, state.centroid, options.exact};
+  ReconstructionField const field{mesh, pairs, state.record, state.centroid, options.exact, options.fluid};
   View<CellStatus *> const status(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::status"),
                                   regions.num_mixed_cells);
   Kokkos::parallel_for(

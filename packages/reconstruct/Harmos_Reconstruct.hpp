@@ -27,6 +27,9 @@ struct ReconstructionOptions
   /// By material, 1: rigid, so that volumes and centroids are those of its shape and not what remaps have left. Extent
   /// 0: none.
   View<int *> exact;
+  /// Materials: 1 where it has no strength. Beside such a one corners inside of another body are kept
+  /// (embeddedCornerPlan): a pressure acts on chords that are not there. Extent 0: none.
+  View<int *> fluid = {};
 };
 
 struct ReconstructionReport

@@ -15,7 +15,8 @@ constexpr int max_exhaustive_components = 5; // more are cut off greedily
 /// In which order a cell's components are cut off, and with which normals; the last one keeps the remainder. Or the
 /// cell is parted: normal[0] leaves the part that component 0 shares with void_part of the void, normal[1] and
 /// normal[2] leave components 0 and 1 in their parts. Or the last body that is left has a corner: of the polygon that
-/// it shares with void the last two normals, which leave the body, cut off void_part and then the rest of the void. Or
+/// it shares with void (or, of two bodies that fill the cell, with the other one) the last two normals, which leave the
+/// body, cut off void_part and then the rest of the void (of the other body). Or
 /// void is in two places: void_part of it where the plan has it, the rest between the last two bodies, along their
 /// line. Or the bodies are apart: normal[2 k], which leaves body k, cuts open[k] off the cell, normal[2 k + 1] the rest
 /// of what body k does not fill.
@@ -28,6 +29,7 @@ struct RemovalPlan
   Vector2 normal[max_components]; // of the cut that removes component[i], leaves it; i < count - 1
   double error = 0.0;             // the measure that orders are compared by
   int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
+  bool embedded = false;          // corner: inside of the other body
   bool parted = false, corner = false, filmed = false, apart = false;
   double void_part = 0.0;       // of the cell
   double open[most_apart] = {}; // of the cell

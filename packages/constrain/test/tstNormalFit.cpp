@@ -11,12 +11,12 @@ using namespace Harmos;
 namespace
 {
 
-Vector2 fit(std::vector<FitSample> const &sample)
+Vector2 fit(std::vector<FitSample> const &sample, Vector2 const &own = {1.0, 0.0}, bool keeps_faces = false)
 {
   FitSamples samples;
   for (FitSample const &s : sample)
     EXPECT_TRUE(samples.push(s));
-  return fitNormal(samples, {1.0, 0.0});
+  return fitNormal(samples, own, keeps_faces);
 }
 
 FitSample sampleAt(Vector2 const &x, Vector2 const &n, double length, int side, double gap = 0.0)
@@ -35,6 +35,26 @@ Vector2 atAngle(double degrees)
 }
 
 } // namespace
+
+TEST(NormalFit, besideACornerOfABodyInsideOfAnother_keepsTheFace)
+{
+  // Two faces that meet at (0.3, 0), a speck beside them; the point is on the face along x.
+  std::vector<FitSample> s;
+  for (int side = 0; side < 2; ++side)
+  {
+    s.push_back(sampleAt({0.0, 0.0}, {0.0, 1.0}, 0.6, side));
+    s.push_back(sampleAt({0.3, 0.5}, {-1.0, 0.0}, 1.0, side));
+    for (int i = 1; i < 3; ++i)
+    {
+      s.push_back(sampleAt({-0.6 * i, 0.0}, {0.0, 1.0}, 0.6, side)); // cut by more cells
+      s.push_back(sampleAt({0.3, i + 0.5}, {-1.0, 0.0}, 1.0, side));
+    }
+  }
+  s.push_back(sampleAt({0.2, 1.9}, {0.0, 1.0}, 1e-4, 0));
+  Vector2 const face{0.0, 1.0};
+  EXPECT_LT(angleBetween(fit(s, face, true), face), 1e-6);
+  EXPECT_GT(angleBetween(fit(s, face, false), face), 0.1);
+}
 
 TEST(NormalFit, noSamples_returnsTheFallback)
 {

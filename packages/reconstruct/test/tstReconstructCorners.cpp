@@ -78,6 +78,84 @@ void expectExactCorners(Geometry geometry, bool with_plane)
   EXPECT_GE(exact, 0.98 * looked_at); // a search may end elsewhere
 }
 
+bool contains(Quadrilateral const &quad, Vector2 const &x)
+{
+  for (int k = 0; k < 4; ++k)
+    if (cross(quad[(k + 1) % 4] - quad[k], x - quad[k]) < 0.0)
+      return false;
+  return true;
+}
+
+/// A body with a convex corner inside of another that fills the rest.
+void expectExactEmbedding(Geometry geometry)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int looked_at = 0, exact = 0;
+  for (int i = 0; i < 300; ++i)
+  {
+    bool const ring = geometry == Geometry::Axisymmetric;
+    double const left = ring && i % 2 == 0 ? 0.0 : 10.0;
+    Mesh const mesh = ring ? ringMesh(7, left, 0.1, i) : makeMesh(7, 7, 1.0 / 7.0, i % 2 == 0 ? 0.0 : 0.1, i);
+    Vector2 const corner{(ring ? left : 0.0) + (3.0 + unit(random)) / 7.0, (3.0 + unit(random)) / 7.0};
+    double const ahead = 360.0 * unit(random), half_angle = 20.0 + 50.0 * unit(random);
+    int const wedge = i / 2 % 2; // its material
+    std::vector<Body> const alone{
+        {halfPlane(ahead - 90.0 + half_angle, corner), halfPlane(ahead + 90.0 - half_angle, corner)}};
+    CellFills const of_wedge = bodies(alone, geometry);
+    Scene const scene = paint(mesh,
+                              [&](int cell, Quadrilateral const &quad)
+                              {
+                                Moments<1> const whole = moments<1>(quad, quad[0], areaWeight(geometry, quad[0]));
+                                std::vector<Fill> inside = of_wedge(cell, quad);
+                                Fill rest{1 - wedge, whole.volume(), quad[0] + whole.centroid()};
+                                if (!inside.empty())
+                                {
+                                  inside[0].material = wedge;
+                                  rest.volume -= inside[0].volume;
+                                  rest.centroid = (1.0 / rest.volume) * (whole.volume() * (quad[0] + whole.centroid()) -
+                                                                         inside[0].volume * inside[0].centroid);
+                                  if (rest.volume > 1e-13 * whole.volume())
+                                    inside.insert(inside.begin() + (wedge == 0 ? 1 : 0), rest);
+                                  return inside;
+                                }
+                                return std::vector<Fill>{rest};
+                              });
+    double body = 0.0, open = 0.0;
+    leastParts(scene, body, open);
+    if (body < film)
+      continue;
+    ++looked_at;
+    // The wedge's own region tells all: what the other one fills is the rest of the cell.
+    auto const x = onHost(mesh.node_position);
+    auto const node = onHost(mesh.cell_node);
+    FilledRegions const regions =
+        reconstructed(scene, sliver, ReconstructionMethod::MomentOfFluid, deviceCopy("fluid", std::vector<int>{0, 1}));
+    auto const first = onHost(regions.cell_region);
+    auto const polygon = onHost(regions.polygon);
+    auto const offset = onHost(scene.pairs.offset);
+    auto const material = onHost(scene.pairs.material);
+    auto const mixed = onHost(regions.mixed_cell);
+    double wrong = 0.0;
+    for (int m = 0; m < regions.num_mixed_cells; ++m)
+    {
+      int const cell = mixed(m);
+      if (!contains(hostQuadrilateral(x, node, cell), corner))
+        continue; // a wedge through a cell would leave the other one in two parts
+      for (int k = 0; k < offset(cell + 1) - offset(cell); ++k)
+        if (material(offset(cell) + k) == wedge)
+        {
+          Region const &region = polygon(first(cell) + k);
+          wrong = std::max(wrong, 49.0 * (area(region) - area(intersection(region, alone[0]))));
+        }
+    }
+    exact += wrong < 1e-7 ? 1 : 0;
+  }
+  std::printf("%d of %d embedded corners exact\n", exact, looked_at);
+  EXPECT_GT(looked_at, 150);
+  EXPECT_GE(exact, 0.97 * looked_at); // a search may end elsewhere
+}
+
 /// Two blocks, a film of void between them, that both end in a cell, on the same side or on opposite ones.
 void expectExactPassing(Geometry geometry)
 {
@@ -110,6 +188,16 @@ void expectExactPassing(Geometry geometry)
 }
 
 } // namespace
+
+TEST(ReconstructCorners, cornersInsideOfAnotherBody_areExact)
+{
+  expectExactEmbedding(Geometry::Planar);
+}
+
+TEST(ReconstructCorners, cornersInsideOfAnotherBodyAboutAnAxis_areExact)
+{
+  expectExactEmbedding(Geometry::Axisymmetric);
+}
 
 TEST(ReconstructCorners, cornersThatPassEachOther_areExact)
 {
