@@ -189,6 +189,7 @@ PairInteraction wallInteraction(Boundary const &wall)
   PairInteraction interaction;
   interaction.kind = wall.friction > 0.0 ? Interaction::Friction : Interaction::Sliding;
   interaction.friction = wall.friction;
+  interaction.restitution = wall.restitution;
   return interaction;
 }
 

@@ -90,7 +90,12 @@ Arguments parseArguments(int argc, char **argv)
   {
     std::string const word = argv[i];
     if (word == "--output" || word == "--set" || word == "--restart" || word == "--force")
+    {
+      bool const again = std::find(arguments.options.begin(), arguments.options.end(), word) != arguments.options.end();
+      if (again && (word == "--output" || word == "--restart"))
+        throw Harmos::DeckError(word + " is given twice; expected: once");
       arguments.options.push_back(word);
+    }
     if (word == "--output")
       arguments.run.directory = value(i);
     else if (word == "--set")
@@ -151,7 +156,12 @@ int dispatch(Arguments const &arguments, Teuchos::RCP<Teuchos::Comm<int> const> 
   if (arguments.command != "run" && arguments.command != "check")
   {
     if (speaks)
+    {
+      if (!arguments.command.empty())
+        std::fprintf(stderr, "harmos: unknown command '%s'; allowed: run, check, remap, schema\n",
+                     arguments.command.c_str());
       std::fputs(usage, stderr);
+    }
     return Harmos::BadInput;
   }
   Harmos::Deck const deck = Harmos::readDeck(arguments.deck, arguments.overrides, *comm);

@@ -372,7 +372,9 @@ struct RowBuilder
     row.bond = -1;
     if (b.material < 0)
     {
-      row.friction = boundary(mesh.face_boundary(b.cell, b.face)).friction;
+      Boundary const &wall = boundary(mesh.face_boundary(b.cell, b.face));
+      row.friction = wall.friction;
+      row.restitution = wall.restitution;
       return;
     }
     PairInteraction const &law = options.interaction(row.material_a, row.material_b);

@@ -165,7 +165,9 @@ struct WallRows
     row.normal = -wall.normal;
     row.gap = dot(f.shape.centre - wall.midpoint, wall.normal) - f.shape.radius;
     row.bend = dot(wall.normal, f.next - f.shape.centre - dt * body(f.body).velocityAt(row.point));
-    row.friction = boundary(mesh.face_boundary(wall.cell, wall.face)).friction;
+    Boundary const &side = boundary(mesh.face_boundary(wall.cell, wall.face));
+    row.friction = side.friction;
+    row.restitution = side.restitution;
     return row;
   }
 };

@@ -67,7 +67,9 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
                   "\"" + method + "\" takes its stiffness from deformable bodies, and " + body.name +
                       " is rigid and free; expected: multipliers, nodal or merged");
   bool const bounces = std::any_of(deck.interaction.begin(), deck.interaction.end(),
-                                   [](PairInteraction const &law) { return law.restitution > 0.0; });
+                                   [](PairInteraction const &law) { return law.restitution > 0.0; }) ||
+                       std::any_of(std::begin(deck.boundary), std::end(deck.boundary),
+                                   [](Boundary const &wall) { return wall.restitution > 0.0; });
   check.require(!bounces || method == "multipliers" || method == "nodal", path,
                 "\"" + method + "\" knows no restitution; expected: multipliers or nodal");
   for (LawSpec const &law : deck.laws)

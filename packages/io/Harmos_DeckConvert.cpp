@@ -196,6 +196,7 @@ void convertBoundaries(DeckChecker const &check, ParameterList const &boundaries
     {
       boundary.kind = BoundaryKind::ContactWall;
       boundary.friction = list.get<double>("friction");
+      boundary.restitution = list.get<double>("restitution");
     }
     else if (type == "fixed")
       boundary.kind = BoundaryKind::Fixed;

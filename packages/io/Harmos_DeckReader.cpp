@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -263,12 +264,23 @@ bool readText(std::string const &file, std::string &text)
   return stream.is_open() && !stream.bad() && content;
 }
 
+/// What keeps a file from being read.
+std::string whyUnread(std::string const &file)
+{
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    return file + ": cannot be read: there is no such file";
+  if (std::filesystem::is_directory(file, ignored))
+    return file + ": cannot be read: it is a folder";
+  return file + ": cannot be read";
+}
+
 /// The text of a file that this rank alone reads.
 std::string readWhole(std::string const &file)
 {
   std::string text;
   if (!readText(file, text))
-    throw DeckError(file + ": cannot be read");
+    throw DeckError(whyUnread(file));
   return text;
 }
 
@@ -312,7 +324,7 @@ std::string deckText(std::string const &file, Teuchos::Comm<int> const &comm)
     size = static_cast<int>(text.size());
   Teuchos::broadcast(comm, 0, &size);
   if (size < 0)
-    throw DeckError(file + ": cannot be read");
+    throw DeckError(whyUnread(file));
   text.resize(static_cast<std::size_t>(size));
   if (size > 0)
     Teuchos::broadcast(comm, 0, size, text.data());

@@ -76,6 +76,8 @@ void addBoundaries(ParameterList &boundaries)
         "(lagrangian only)");
     add(list.sublist("type = contact wall"), "friction", 0.0, number(not_negative),
         "Coulomb's coefficient of the wall");
+    add(list.sublist("type = contact wall"), "restitution", 0.0, number(between(0.0, 1.0)),
+        "part of the closing speed that bodies part with from the wall; 1: the impact loses no energy");
     ParameterList &inflow = list.sublist("type = inflow");
     add(inflow, "body", std::string(), required(rulesOf(KeyType::Name)), "body whose material flows in");
     add(inflow, "velocity", pair(0.0, 0.0), required(numbers(2, 2, "m/s")), "velocity, into the mesh");
@@ -150,7 +152,8 @@ void addBodies(ParameterList &bodies)
   add(list, "radial_exponent", 0.0, number(between(-10.0, 10.0)),
       "the radial velocity varies with this power of the distance: -1 keeps the area of rings, 1 is uniform expansion");
   addState(list, "the body at the start");
-  add(list, "cut", false, rulesOf(KeyType::Bool), "cut this body out of the bodies before it");
+  add(list, "cut", false, rulesOf(KeyType::Bool),
+      "cut this body out of the bodies before it (rigid ones cannot be cut)");
   add(list, "join", std::string(), optional(rulesOf(KeyType::Name), "a velocity field of its own"),
       "earlier body of the same law whose velocity field this one shares (they weld)");
   add(list, "motion", std::string("fixed"), optional(choice({"fixed", "prescribed", "free"}), "fixed (rigid law)"),
@@ -194,7 +197,8 @@ void addNumerics(ParameterList &list)
 {
   LagrangeOptions const lagrange;
   add(list, "courant", lagrange.courant, number({0.0, 1.0, true, true}),
-      "part of the time in which a wave crosses a cell that a step takes, or less where parts of cut cells or free edges ask for it");
+      "part of the time in which a wave crosses a cell that a step takes, or less where parts of cut cells or free "
+      "edges ask for it");
   add(list, "linear_viscosity", lagrange.linear_viscosity, number(between(0.0, 10.0)), "artificial, in compression");
   add(list, "quadratic_viscosity", lagrange.quadratic_viscosity, number(between(0.0, 10.0)),
       "artificial, in compression");
@@ -280,7 +284,7 @@ void addNumerics(ParameterList &list)
       "what moved regions have in common of bodies that have flowed (plastic strain above 0.1) and pass each other is "
       "divided between them before the remap");
   add(m, "return_kinetic_defect", remap.return_kinetic_defect, rulesOf(KeyType::Bool),
-      "kinetic energy lost by the remap becomes internal energy");
+      "kinetic energy lost by the remap becomes internal energy (not beside materials that can fail)");
 }
 
 void addRun(ParameterList &list)

@@ -22,6 +22,7 @@ struct Boundary
 {
   BoundaryKind kind = BoundaryKind::SlipWall;
   double friction = 0.0;          // contact wall
+  double restitution = 0.0;       // contact wall: part of the closing speed that bodies part with
   Vector2 velocity = {0.0, 0.0};  // Inflow: of the material; Prescribed: its normal part is used
   int material = -1;              // Inflow
   double specific_volume = 0.0;   // Inflow

@@ -28,6 +28,26 @@ def test_a_rigid_disc_leaves_a_rigid_plate_with_its_part_of_the_speed():
         clean(r)
 
 
+def test_contact_walls_have_a_restitution_of_their_own():
+    for e in (0.0, 0.5, 1.0):
+        r = harmos(HERE / "decks/bouncing_disc.yaml", {
+            "gravity": "[0.0, 0.0]", "boundaries/bottom": f"{{type: contact wall, restitution: {e}}}",
+            "bodies": "{disc: {material: hard, shape: disc, center: [0.5, 0.3], radius: 0.1, motion: free, velocity: [5.0, -20.0]}}",
+            "run/end_time": 0.03})
+        mass, energy = r.last("disc.mass"), 0.5 * r.first("disc.mass") * 20.0**2
+        check(f"rigid disc, e = {e}: speed it leaves with, over V", abs(r.last("disc.momentum_y") / (mass * 20.0) - e), 1e-9)
+        check("speed along the wall", abs(r.last("disc.momentum_x") / (mass * 5.0) - 1.0), 1e-9)
+        check("energy taken, over m V^2 / 2 (1 - e^2)", abs(r.last("contact_loss") / energy - (1.0 - e * e)), 1e-9)
+        clean(r)
+    for kinematics in "xfem", "single", "lagrangian":
+        block = harmos(HERE / "decks/struck_block.yaml", {
+            "kinematics": kinematics, "boundaries/bottom": "{type: contact wall, restitution: 1.0}", "interactions": "{default: sliding}",
+            "bodies": "{low: {material: iron, shape: rectangle, center: [0.02, -1.29], size: [0.4, 0.4], velocity: [0.0, -40.0]}}"})
+        check(f"elastic block, {kinematics}: energy taken by the wall", abs(block.last("contact_loss")) / block.first("kinetic_energy"), 1e-8)
+        check("speed it goes back with, over V (the rest rings)", -block.last("low.momentum_y") / block.first("low.mass") / 40.0, -0.4)
+        clean(block)
+
+
 def test_any_number_of_ranks_gives_the_same_rebound():
     one = ball(0.7)
     for ranks in (2, 4):

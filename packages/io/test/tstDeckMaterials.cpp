@@ -184,7 +184,7 @@ TEST(DeckMaterials, From_readsALawFromAFileAndTheDecksKeysWin)
 TEST(DeckMaterials, FromWithAWrongFile_saysWhatIsWrong)
 {
   EXPECT_EQ(message("from: no_such.yaml", {}, "some/deck.yaml"),
-            "some/deck.yaml: materials/metal/from: some/no_such.yaml: cannot be read");
+            "some/deck.yaml: materials/metal/from: some/no_such.yaml: cannot be read: there is no such file");
   MaterialFile const wrong("metal:\n  eos: rigid\n");
   EXPECT_STARTS(message("from: harmos_metal.yaml", {}, wrong.deck()),
                 wrong.deck() + ": materials/metal/from: " + wrong.path() +
