@@ -40,6 +40,28 @@ void leastParts(Scene const &scene, double &body, double &open)
   }
 }
 
+/// 7 x 7 cells over a unit square, some shaken, some on the axis, some far from it.
+struct Place
+{
+  Mesh mesh;
+  Vector2 low;
+
+  Place(Geometry geometry, int number)
+  {
+    bool const ring = geometry == Geometry::Axisymmetric;
+    double const left = ring && number % 2 == 0 ? 0.0 : 10.0;
+    mesh = ring ? ringMesh(7, left, 0.1, number) : makeMesh(7, 7, 1.0 / 7.0, number % 2 == 0 ? 0.0 : 0.1, number);
+    low = {ring ? left : 0.0, 0.0};
+  }
+
+  Vector2 inMiddleCell(std::mt19937 &random) const
+  {
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    double const x = (3.0 + unit(random)) / 7.0, y = (3.0 + unit(random)) / 7.0;
+    return low + Vector2{x, y};
+  }
+};
+
 /// A body that ends in a convex corner of 40 to 140 degrees, alone or before a plane, anywhere in a cell.
 void expectExactCorners(Geometry geometry, bool with_plane)
 {
@@ -49,10 +71,8 @@ void expectExactCorners(Geometry geometry, bool with_plane)
   double worst = 0.0;
   for (int i = 0; i < 300; ++i)
   {
-    bool const ring = geometry == Geometry::Axisymmetric;
-    double const left = ring && i % 2 == 0 ? 0.0 : 10.0;
-    Mesh const mesh = ring ? ringMesh(7, left, 0.1, i) : makeMesh(7, 7, 1.0 / 7.0, i % 2 == 0 ? 0.0 : 0.1, i);
-    Vector2 const corner{(ring ? left : 0.0) + (3.0 + unit(random)) / 7.0, (3.0 + unit(random)) / 7.0};
+    Place const place(geometry, i);
+    Vector2 const corner = place.inMiddleCell(random);
     double const ahead = 360.0 * unit(random), half_angle = 20.0 + 50.0 * unit(random);
     std::vector<Body> all{{halfPlane(ahead - 90.0 + half_angle, corner), halfPlane(ahead + 90.0 - half_angle, corner)}};
     if (with_plane)
@@ -61,7 +81,7 @@ void expectExactCorners(Geometry geometry, bool with_plane)
       Vector2 const normal = halfPlane(ahead + tilt, corner).normal;
       all.push_back({halfPlane(ahead + tilt + 180.0, corner + gap * normal)});
     }
-    Scene const scene = paint(mesh, bodies(all, geometry));
+    Scene const scene = paint(place.mesh, bodies(all, geometry));
     double body = 0.0, open = 0.0;
     leastParts(scene, body, open);
     if (body < 10.0 * sliver || open < film)
@@ -94,16 +114,14 @@ void expectExactEmbedding(Geometry geometry)
   int looked_at = 0, exact = 0;
   for (int i = 0; i < 300; ++i)
   {
-    bool const ring = geometry == Geometry::Axisymmetric;
-    double const left = ring && i % 2 == 0 ? 0.0 : 10.0;
-    Mesh const mesh = ring ? ringMesh(7, left, 0.1, i) : makeMesh(7, 7, 1.0 / 7.0, i % 2 == 0 ? 0.0 : 0.1, i);
-    Vector2 const corner{(ring ? left : 0.0) + (3.0 + unit(random)) / 7.0, (3.0 + unit(random)) / 7.0};
+    Place const place(geometry, i);
+    Vector2 const corner = place.inMiddleCell(random);
     double const ahead = 360.0 * unit(random), half_angle = 20.0 + 50.0 * unit(random);
     int const wedge = i / 2 % 2; // its material
     std::vector<Body> const alone{
         {halfPlane(ahead - 90.0 + half_angle, corner), halfPlane(ahead + 90.0 - half_angle, corner)}};
     CellFills const of_wedge = bodies(alone, geometry);
-    Scene const scene = paint(mesh,
+    Scene const scene = paint(place.mesh,
                               [&](int cell, Quadrilateral const &quad)
                               {
                                 Moments<1> const whole = moments<1>(quad, quad[0], areaWeight(geometry, quad[0]));
@@ -127,8 +145,8 @@ void expectExactEmbedding(Geometry geometry)
       continue;
     ++looked_at;
     // The wedge's own region tells all: what the other one fills is the rest of the cell.
-    auto const x = onHost(mesh.node_position);
-    auto const node = onHost(mesh.cell_node);
+    auto const x = onHost(place.mesh.node_position);
+    auto const node = onHost(place.mesh.cell_node);
     FilledRegions const regions =
         reconstructed(scene, sliver, ReconstructionMethod::MomentOfFluid, deviceCopy("fluid", std::vector<int>{0, 1}));
     auto const first = onHost(regions.cell_region);
@@ -164,17 +182,14 @@ void expectExactPassing(Geometry geometry)
   int looked_at = 0, exact = 0;
   for (int i = 0; i < 400; ++i)
   {
-    bool const ring = geometry == Geometry::Axisymmetric;
-    double const left = ring && i % 2 == 0 ? 0.0 : 10.0;
-    Mesh const mesh = ring ? ringMesh(7, left, 0.1, i) : makeMesh(7, 7, 1.0 / 7.0, i % 2 == 0 ? 0.0 : 0.1, i);
-    Vector2 const low{ring ? left : 0.0, 0.0};
-    auto const inCell = [&]() { return low + Vector2{(3.0 + unit(random)) / 7.0, (3.0 + unit(random)) / 7.0}; };
+    Place const place(geometry, i);
+    auto const inCell = [&]() { return place.inMiddleCell(random); };
     double const across = 360.0 * unit(random), gap = std::pow(10.0, -3.0 + 2.0 * unit(random)) / 7.0;
     Vector2 const face = inCell(), normal = halfPlane(across, face).normal;
     std::vector<Body> const all{
         {halfPlane(across, face), halfPlane(across + 90.0, inCell())},
         {halfPlane(across + 180.0, face + gap * normal), halfPlane(across + (i % 4 < 2 ? 90.0 : -90.0), inCell())}};
-    Scene const scene = paint(mesh, bodies(all, geometry));
+    Scene const scene = paint(place.mesh, bodies(all, geometry));
     double body = 0.0, open = 0.0;
     leastParts(scene, body, open);
     if (body < 1e-3)
