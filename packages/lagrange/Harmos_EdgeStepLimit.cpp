@@ -262,8 +262,7 @@ struct EdgeStepFunctor
   /// lies void.
   KOKKOS_INLINE_FUNCTION double wholeAngle(int condition) const
   {
-    constexpr double pi = 3.14159265358979323846;
-    return condition < 0 ? 2.0 * pi : (boundary.condition(condition).count == 1 ? pi : 0.0);
+    return condition < 0 ? 2.0 * Math::pi : (boundary.condition(condition).count == 1 ? Math::pi : 0.0);
   }
 
   /// Of the mass on a dof node what is a pair's, against its cell's part of the volume there: 0 where the node's cells
