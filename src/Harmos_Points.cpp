@@ -4,6 +4,11 @@
 #include <Harmos_EquationOfState.hpp>
 #include <Harmos_LocalCell.hpp>
 
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
 namespace Harmos
 {
 namespace
@@ -145,31 +150,68 @@ std::vector<double> gatherRows(View<double **> const &rows, Exchange const &exch
   return flat;
 }
 
+constexpr long long nowhere = std::numeric_limits<long long>::max();
+
+/// Global numbers of the cells that hold the points, by the points' own order; `nowhere` for none of this rank's.
+std::vector<long long> globalNumbers(Mesh const &mesh, View<int *> const &cell, std::vector<int> const &order)
+{
+  View<long long *> const global("Harmos::points::global", cell.extent(0));
+  Kokkos::parallel_for(
+      "Harmos::points::globalNumbers", RangePolicy(0, cell.extent(0)),
+      KOKKOS_LAMBDA(int i) { global(i) = cell(i) < mesh.num_cells ? mesh.cell_global(cell(i)) : nowhere; });
+  auto const host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), global);
+  std::vector<long long> numbers(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    numbers[order[i]] = host(i);
+  return numbers;
+}
+
 } // namespace
 
 std::vector<long long> locatePoints(Mesh const &mesh, std::vector<Vector2> const &points, Exchange const &exchange)
 {
-  std::vector<long long> cells;
-  for (Vector2 const &point : points)
-  {
-    int first = mesh.num_cells;
-    Kokkos::parallel_reduce(
-        "Harmos::points::locate", RangePolicy(0, mesh.num_cells),
-        KOKKOS_LAMBDA(int cell, int &least) {
-          if (cell < least && mesh.cell_depth(cell) == 0 && cellHolds(mesh, cell, point))
-            least = cell;
-        },
-        Kokkos::Min<int>(first));
-    double global = 1e300; // cell numbers are exact in doubles
-    if (first < mesh.num_cells)
-    {
-      long long number = 0;
-      Kokkos::deep_copy(number, Kokkos::subview(mesh.cell_global, first));
-      global = static_cast<double>(number);
-    }
-    global = exchange.min(global);
-    cells.push_back(global < 1e300 ? static_cast<long long>(global) : -1);
-  }
+  int const count = static_cast<int>(points.size());
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return points[a][0] < points[b][0]; });
+  std::vector<Vector2> sorted;
+  for (int const i : order)
+    sorted.push_back(points[i]);
+  auto const point = deviceCopy("Harmos::points::position", sorted);
+  View<int *> const first("Harmos::points::first", count);
+  Kokkos::deep_copy(first, mesh.num_cells);
+  Kokkos::parallel_for(
+      "Harmos::points::locate", RangePolicy(0, count > 0 ? mesh.num_cells : 0), KOKKOS_LAMBDA(int cell) {
+        if (mesh.cell_depth(cell) != 0)
+          return;
+        Quadrilateral const q = cellQuadrilateral(mesh, cell);
+        double const scale = Math::sqrt(mesh.cell_area(cell)), slack = 2.0 * nearly * scale;
+        double const left = Math::min(Math::min(q[0][0], q[1][0]), Math::min(q[2][0], q[3][0])) - slack;
+        double const right = Math::max(Math::max(q[0][0], q[1][0]), Math::max(q[2][0], q[3][0])) + slack;
+        int low = 0, high = count;
+        while (low < high)
+        {
+          int const middle = low + (high - low) / 2;
+          if (point(middle)[0] < left)
+            low = middle + 1;
+          else
+            high = middle;
+        }
+        for (int i = low; i < count && point(i)[0] <= right; ++i)
+          if (holds(q, point(i), scale))
+            Kokkos::atomic_fetch_min(&first(i), cell);
+      });
+  std::vector<long long> const mine = globalNumbers(mesh, first, order);
+  std::vector<char> bytes(mine.size() * sizeof(long long));
+  std::memcpy(bytes.data(), mine.data(), bytes.size());
+  bytes = exchange.gather(bytes);
+  std::vector<long long> all(bytes.size() / sizeof(long long));
+  std::memcpy(all.data(), bytes.data(), bytes.size());
+  std::vector<long long> cells(points.size(), nowhere);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    cells[i % points.size()] = std::min(cells[i % points.size()], all[i]);
+  for (long long &cell : cells)
+    cell = cell == nowhere ? -1 : cell;
   return cells;
 }
 

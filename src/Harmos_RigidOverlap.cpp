@@ -5,6 +5,7 @@
 #include <Harmos_Paint.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace Harmos
@@ -23,6 +24,39 @@ double overlap(Run const &run, std::array<int, 2> const &pair)
 
 /// Bodies that touch overlap by round-off.
 constexpr double touching = 1e-6;
+
+/// How far two bodies must have moved against each other before they are looked at again. [cells]
+constexpr double look_again = 0.05;
+
+/// Most by which a point of the mesh's box has moved with one body against the other since they were looked at.
+double movedSinceLook(Run const &run, WatchedBodies const &watched)
+{
+  auto const &x = run.deck.x, &y = run.deck.y;
+  Vector2 shift{0.0, 0.0};
+  double turned = 0.0;
+  for (int k = 0; k < 2; ++k)
+  {
+    RigidBody const &body = run.state.bodies[watched.pair[k]];
+    double farthest = 0.0;
+    for (double const corner_x : {x.from, x.to})
+      for (double const corner_y : {y.from, y.to})
+        farthest = std::max(farthest, norm(Vector2{corner_x, corner_y} - body.centre));
+    shift += (k == 0 ? 1.0 : -1.0) * (body.centre - watched.centre[k]);
+    turned += std::fabs(body.angle - watched.angle[k]) * farthest;
+  }
+  return norm(shift) + turned;
+}
+
+/// Note where two bodies are looked at.
+void look(Run const &run, WatchedBodies &watched)
+{
+  for (int k = 0; k < 2; ++k)
+  {
+    RigidBody const &body = run.state.bodies[watched.pair[k]];
+    watched.centre[k] = body.centre;
+    watched.angle[k] = body.angle;
+  }
+}
 
 } // namespace
 
@@ -57,14 +91,22 @@ void watchRigidBodies(Run &run)
       bool const moves = bodies[a].motion == RigidMotion::Prescribed || bodies[b].motion == RigidMotion::Prescribed;
       // The deck may have cut one out of the other.
       if (driven && moves && !(overlap(run, {a, b}) > touching))
-        run.watched.push_back({a, b});
+      {
+        run.watched.push_back({{a, b}, {}, {}});
+        look(run, run.watched.back());
+      }
     }
 }
 
 void reportRigidOverlap(Run &run)
 {
-  auto const ran = [&](std::array<int, 2> const &pair)
+  double const least = look_again * std::min(run.deck.x.smallestCell(), run.deck.y.smallestCell());
+  auto const ran = [&](WatchedBodies &watched)
   {
+    if (movedSinceLook(run, watched) < least)
+      return false;
+    look(run, watched);
+    std::array<int, 2> const &pair = watched.pair;
     double const part = overlap(run, pair);
     if (!(part > touching))
       return false;

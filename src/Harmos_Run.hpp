@@ -21,6 +21,14 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// Two rigid bodies that are looked at from time to time, and where they were when they were last.
+struct WatchedBodies
+{
+  std::array<int, 2> pair;
+  std::array<Vector2, 2> centre;
+  std::array<double, 2> angle;
+};
+
 /// A run between its set-up and its summary.
 struct Run
 {
@@ -41,7 +49,7 @@ struct Run
   PhaseTimes times;
   double output_seconds = 0.0;
   std::vector<std::string> warnings;
-  std::vector<std::array<int, 2>> watched;       // rigid bodies that nothing would keep from running into one another
+  std::vector<WatchedBodies> watched;            // that nothing would keep from running into one another
   std::vector<std::array<int, 2>> watched_walls; // free rigid bodies, and sides of the mesh that would not hold them
   Kokkos::Timer timer;
   std::clock_t cpu_start = std::clock();

@@ -109,6 +109,15 @@ std::vector<ShortSegments> shortSegments(Scene const &scene, std::vector<Materia
   return kept;
 }
 
+/// 1 for each material whose pressure acts on all of its outline.
+std::vector<int> pressingFluids(Scene const &scene, std::vector<Material> const &laws)
+{
+  std::vector<int> fluid;
+  for (Material const &law : laws)
+    fluid.push_back(law.strength == StrengthKind::None && actsOnFilledRegion(scene.lagrange.cut_cell_stress, law));
+  return fluid;
+}
+
 } // namespace
 
 ReconstructionReport startCycle(Scene &scene, CycleState &s)
@@ -131,6 +140,13 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   }
   if (scene.constraint.short_segments.extent(0) == 0 && scene.kinematics == Kinematics::Xfem)
     scene.constraint.short_segments = deviceCopy("short_segments", shortSegments(scene, laws));
+  if (scene.kinematics == Kinematics::Xfem)
+  {
+    std::vector<int> const fluid = pressingFluids(scene, laws);
+    s.work.keeps_pressure = std::find(fluid.begin(), fluid.end(), 1) != fluid.end();
+    if (s.work.keeps_pressure && scene.constraint.fluid.extent(0) == 0)
+      scene.constraint.fluid = deviceCopy("fluid", fluid);
+  }
   if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)
     scene.subzone_fraction = subzoneFractions(scene.mesh);
   if (scene.reconstruction.exact.extent(0) == 0)

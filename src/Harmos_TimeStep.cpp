@@ -117,11 +117,11 @@ void limitAtEdges(Scene const &scene, CycleState &s)
   s.dt = Math::min(s.dt, scene.exchange->min(limit.dt));
 }
 
-/// Forces and the velocities that they predict.
-PredictionSums accelerate(Scene &scene, CycleState &s, double kick)
+/// Forces of a step of dt and the velocities that they predict.
+PredictionSums accelerate(Scene &scene, CycleState &s, double dt, double kick)
 {
   LagrangeOptions options = scene.lagrange;
-  options.energy_lag = 0.5 * s.dt; // of the step that lies behind, which the one ahead stands for
+  options.energy_lag = 0.5 * dt; // of the step that lies behind, which the one ahead stands for
   if (scene.kinematics != Kinematics::Lagrangian)
     return computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options,
                                    kick, s.work);
@@ -170,8 +170,11 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   PredictionSums prediction;
   TravelReport travel;
   double dt = s.dt, kick = 0.0;
-  View<double *[3]> const stress =
-      scene.constraint.method == ConstraintMethod::Nitsche ? pairStress(s, scene.materials) : View<double *[3]>();
+  PairStress stress;
+  if (scene.constraint.method == ConstraintMethod::Nitsche)
+    stress.cauchy = pairStress(s, scene.materials);
+  if (work.keeps_pressure)
+    stress.pressure = work.pressure;
   std::vector<RigidBody> const bodies_n = s.bodies;
   std::vector<Shape> const outlines =
       scene.kinematics == Kinematics::Xfem ? presentShapes(scene, s.bodies) : std::vector<Shape>();
@@ -180,9 +183,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     kick = 0.5 * (s.last_dt + dt);
     {
       PhaseTimer timer("lagrange", times.lagrange);
-      prediction = report.repeats == 0 ? accelerate(scene, s, kick)
-                                       : predictVelocities(mesh, s.pairs, s.dof_nodes, s.state, scene.boundary,
-                                                           scene.materials, scene.lagrange, kick, work);
+      prediction = accelerate(scene, s, dt, kick);
     }
     {
       PhaseTimer timer("constrain", times.constrain);

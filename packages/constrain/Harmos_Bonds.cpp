@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 
 namespace Harmos
 {
@@ -40,6 +42,41 @@ bool near(Bond const &a, Bond const &b, double distance)
   Vector2 const apart = a.point - b.point;
   return a.material_a == b.material_a && a.material_b == b.material_b && dot(apart, apart) < distance * distance;
 }
+
+/// Bonds that keep their distance from those that came before.
+struct SpacedBonds
+{
+  double size; // of a bin: the largest distance
+  std::vector<Bond> bonds;
+  std::map<std::array<long long, 2>, std::vector<std::size_t>> in_bin;
+
+  explicit SpacedBonds(double largest_distance) : size(largest_distance) {}
+
+  std::array<long long, 2> binOf(Vector2 const &point) const
+  {
+    return {static_cast<long long>(std::floor(point[0] / size)), static_cast<long long>(std::floor(point[1] / size))};
+  }
+
+  bool hasNear(Bond const &bond) const
+  {
+    std::array<long long, 2> const middle = binOf(bond.point);
+    for (long long x = middle[0] - 1; x <= middle[0] + 1; ++x)
+      for (long long y = middle[1] - 1; y <= middle[1] + 1; ++y)
+        if (auto const bin = in_bin.find({x, y}); bin != in_bin.end())
+          for (std::size_t const other : bin->second)
+            if (near(bonds[other], bond, least_spacing * bond.cell_size))
+              return true;
+    return false;
+  }
+
+  void add(Bond const &bond)
+  {
+    if (hasNear(bond))
+      return;
+    in_bin[binOf(bond.point)].push_back(bonds.size());
+    bonds.push_back(bond);
+  }
+};
 
 /// Rows of one slave cell follow each other: the first of each pair of materials makes the bond.
 std::vector<double> ownBonds(Mesh const &mesh, ContactRows const &rows, HostView<PairInteraction **> const &law)
@@ -189,14 +226,13 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
   for (std::size_t i = 0; i < values.size(); ++i)
     found[i / bond_width][i % bond_width] = values[i];
   std::sort(found.begin(), found.end());
-  std::vector<Bond> bonds;
+  double largest = 0.0;
   for (auto const &f : found)
-  {
-    Bond const bond{{f[2], f[3]}, static_cast<int>(f[4]), static_cast<int>(f[5]), false, f[6]};
-    if (std::none_of(bonds.begin(), bonds.end(), [&](Bond const &o) { return near(o, bond, least_spacing * f[6]); }))
-      bonds.push_back(bond);
-  }
-  return bonds;
+    largest = std::max(largest, f[6]);
+  SpacedBonds spaced(least_spacing * largest);
+  for (auto const &f : found)
+    spaced.add({{f[2], f[3]}, static_cast<int>(f[4]), static_cast<int>(f[5]), false, f[6]});
+  return spaced.bonds;
 }
 
 int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double kick,

@@ -4,6 +4,7 @@
 #include <Harmos_ConstraintSums.hpp>
 #include <Harmos_ExplicitImpulses.hpp>
 #include <Harmos_OutlineRows.hpp>
+#include <Harmos_PressureTractions.hpp>
 #include <Harmos_RowPointer.hpp>
 #include <Harmos_StateExchange.hpp>
 
@@ -113,7 +114,7 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &table,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
                             Motion const &before, double dt, ConstraintWork *kept, std::vector<Shape> const &outline,
-                            std::vector<RigidBody> const &predicted)
+                            std::vector<RigidBody> const &predicted, PressureTractions *tractions)
 {
   ConstraintWork own;
   ConstraintWork &work = kept != nullptr ? *kept : own;
@@ -137,7 +138,13 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   SegmentBins const bins = binSegments(segments, largest, arrays);
   View<RayHit *> const hit = castRays(cells, segments, bins, arrays);
   ContactRows rows = buildContactRows(cells, borrowed(pairs), borrowed(dof_nodes), borrowed(regions), segments, hit,
-                                      bins, borrowed(conditions), table, bonds, options, before, dt, arrays);
+                                      bins, borrowed(conditions), table, bonds, options, before, dt, arrays, tractions);
+  if (tractions != nullptr)
+  {
+    exchange.sum(&tractions->rows.num_multipliers, 1);
+    if (tractions->rows.num_multipliers > 0)
+      exchangeContactRows(mesh, pairs, table, exchange, tractions->rows, arrays);
+  }
   OutlineRows between;
   if (table.outlined)
     between = findOutlineRows(mesh, segments, conditions, outline, predicted, options, exchange, largest, dt);
@@ -149,14 +156,15 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   return rows;
 }
 
-ConstraintReport
-constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
-                    FilledRegions const &regions, BoundaryConditions const &conditions, View<double *> const &dof_mass,
-                    View<double *[2]> const &velocity_n, View<double *[2]> const &predicted, View<double *[2]> &half,
-                    std::vector<RigidBody> const &bodies_n, std::vector<RigidBody> &bodies, double dt, double kick,
-                    View<double *[3]> const &pair_stress, std::vector<Bond> const &bonds,
-                    ConstraintOptions const &options, Exchange const &exchange, std::vector<ContactForce> const &last,
-                    ConstraintWork *kept, std::vector<Shape> const &outline)
+ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                     NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
+                                     BoundaryConditions const &conditions, View<double *> const &dof_mass,
+                                     View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
+                                     View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
+                                     std::vector<RigidBody> &bodies, double dt, double kick, PairStress const &stress,
+                                     std::vector<Bond> const &bonds, ConstraintOptions const &options,
+                                     Exchange const &exchange, std::vector<ContactForce> const &last,
+                                     ConstraintWork *kept, std::vector<Shape> const &outline)
 {
   ScopedRegion const region("Harmos::constrain");
   if (!(dt > 0.0))
@@ -179,10 +187,13 @@ constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
   table.outlined = !outline.empty() && options.method == ConstraintMethod::Multipliers;
   table.surfaces = rigidSurfaces(outline, arrays);
   BodyTable const table_n = withBodies(table, bodies_n, arrays);
-  ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
-                                           {velocity_n, table_n}, dt, kept, outline, bodies);
+  bool const presses = options.fluid.extent(0) > 0 && stress.pressure.extent(0) > 0;
+  PressureTractions tractions;
+  ContactRows const rows =
+      findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
+                      {velocity_n, table_n}, dt, kept, outline, bodies, presses ? &tractions : nullptr);
   report.rows = rows.num_multipliers;
-  if (rows.num_multipliers == 0)
+  if (rows.num_multipliers == 0 && tractions.rows.num_multipliers == 0)
   {
     if (bodies.empty())
       half = predicted;
@@ -195,23 +206,44 @@ constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
   bool const gives_way =
       !is_explicit && options.method != ConstraintMethod::Merged && !sharesMultipliers(options.placement);
-  Motion const before{borrowed(velocity_n), table_n}, after{borrowed(predicted), table};
+  Motion const before{borrowed(velocity_n), table_n};
+  Motion after{borrowed(predicted), table};
+  View<double *[2]> pushed = predicted;
+  PressureImpulses pressure;
+  if (tractions.rows.num_multipliers > 0)
+  {
+    ContactSystem const of_facets =
+        buildContactSystem(cells, borrowed(pairs), tractions.rows, dofs, borrowed(conditions), borrowed(dof_mass),
+                           before, after, bodies, dt, false, arrays);
+    pressure = pressureImpulses(tractions, of_facets, cells, borrowed(pairs), stress.pressure, options, kick, exchange,
+                                arrays);
+    pushed = arrays.unset<double *[2]>("Harmos::constrain::pushed", predicted.extent(0));
+    launchCopy(pushed, predicted);
+    addChange(of_facets, pressure.solution.change, pushed);
+    exchangeDofVelocities(exchange, 3, pairs, pushed);
+    moveFreeBodies(of_facets, pressure.solution.body_change, bodies);
+    after = {borrowed(pushed), withBodies(table, bodies, arrays)};
+  }
   ContactSystem const system = buildContactSystem(cells, borrowed(pairs), rows, dofs, borrowed(conditions),
                                                   borrowed(dof_mass), before, after, bodies, dt, gives_way, arrays);
   MultiplierSolution const solution =
       is_explicit
-          ? explicitImpulses({mesh, pairs, before, pair_stress}, system, rows, dt, kick, options, exchange, arrays)
+          ? explicitImpulses({mesh, pairs, before, stress.cauchy}, system, rows, dt, kick, options, exchange, arrays)
           : solveWithRebound(mesh, system, rows, before, after, dt, options, exchange, last, arrays);
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;
   report.force = solution.force;
   moveFreeBodies(system, solution.body_change, bodies);
-  writeHalf(cells, dofs, predicted, system.num_free > 0 ? withBodies(table, bodies, arrays) : table, half);
+  writeHalf(cells, dofs, pushed, system.num_free > 0 ? withBodies(table, bodies, arrays) : table, half);
   addChange(system, solution.change, half);
   exchangeDofVelocities(exchange, 3, pairs, half);
-  sumConstraint(system, rows, solution, cells, dofs, velocity_n, half,
-                withBodies(table, meanBodies(bodies_n, bodies), arrays), num_materials, exchange, report, arrays);
+  BodyTable const mean = withBodies(table, meanBodies(bodies_n, bodies), arrays);
+  sumConstraint(system, rows, solution, cells, dofs, velocity_n, half, mean, num_materials, exchange, true, report,
+                arrays);
+  if (tractions.rows.num_multipliers > 0)
+    sumConstraint(pressure.system, tractions.rows, pressure.solution, cells, dofs, velocity_n, half, mean,
+                  num_materials, exchange, false, report, arrays);
   sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load, arrays);
   return report;
 }

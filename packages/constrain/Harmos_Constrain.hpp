@@ -69,6 +69,15 @@ struct ContactForce
   double normal, tangential;
 };
 
+/// What the stress of the materials tells the constraints. By pair.
+struct PairStress
+{
+  View<double *[3]> cauchy; // xx, yy, xy; Nitsche's method alone reads it [Pa]
+  View<double *[2]>
+      pressure; // with which fluids (ConstraintOptions::fluid) drive their nodes to v*, viscosity included;
+                // extent 0: it acts along the rows' normals alone (Harmos_PressureTractions.hpp) [Pa]
+};
+
 struct ConstraintReport
 {
   long long rows = 0; // multipliers, over all ranks
@@ -114,8 +123,9 @@ struct ConstraintReport
 /// \param bodies_n   Rigid bodies with the velocities before the cycle.
 /// \param bodies     In: predicted velocities. Out: v^{n+1/2}. Poses are not changed.
 /// \param dt         Of the cycle [s]
-/// \param kick       Time for which the forces of penalty and Nitsche act, from v^{n-1/2} to v^{n+1/2} [s]
-/// \param pair_stress num_pairs: Cauchy stress xx, yy, xy [Pa]; Nitsche's method alone reads it
+/// \param kick       Time for which the forces of penalty, Nitsche and fluids' pressures act, from v^{n-1/2} to
+/// v^{n+1/2}
+///                   [s]
 /// \param bonds      Of the pairs whose bonds can break: a row of such a pair is tied where the nearest is whole.
 /// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.
 /// \param kept Cells with interfaces and work arrays, from cycle to cycle.
@@ -126,13 +136,15 @@ struct ConstraintReport
 ///         of the last iterate, which conserves momentum all the same.
 ///
 /// Throws std::runtime_error when a body's material is not one of the interaction table, or dt <= 0.
-ConstraintReport constrainVelocities(
-    Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
-    BoundaryConditions const &conditions, View<double *> const &dof_mass, View<double *[2]> const &velocity_n,
-    View<double *[2]> const &predicted, View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
-    std::vector<RigidBody> &bodies, double dt, double kick, View<double *[3]> const &pair_stress,
-    std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
-    std::vector<ContactForce> const &last = {}, ConstraintWork *kept = nullptr, std::vector<Shape> const &outline = {});
+ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &pairs,
+                                     NodeMaterialPairs const &dof_nodes, FilledRegions const &regions,
+                                     BoundaryConditions const &conditions, View<double *> const &dof_mass,
+                                     View<double *[2]> const &velocity_n, View<double *[2]> const &predicted,
+                                     View<double *[2]> &half, std::vector<RigidBody> const &bodies_n,
+                                     std::vector<RigidBody> &bodies, double dt, double kick, PairStress const &stress,
+                                     std::vector<Bond> const &bonds, ConstraintOptions const &options,
+                                     Exchange const &exchange, std::vector<ContactForce> const &last = {},
+                                     ConstraintWork *kept = nullptr, std::vector<Shape> const &outline = {});
 
 /// The bonds of a scene at its start: one for each slave cell and pair of materials whose bond can break, where they
 /// touch. In the order of the global cells, the same on all ranks. Collective.

@@ -81,7 +81,9 @@ struct ConstraintOptions
   double speed_scale = 0.0;             // of the scene [m/s]
   double shortest_segment = 0.1;        // of the cell size; shorter segments carry no row but as short_segments says
   View<ShortSegments *> short_segments; // materials; extent 0: all Dropped
-  double exposed_face = 0.5;            // least exposed part of a cell face that carries a row
+  View<int *> fluid;         // materials: 1 where its pressure acts on all of its outline (no strength, Kept);
+                             // extent 0: none
+  double exposed_face = 0.5; // least exposed part of a cell face that carries a row
 };
 
 } // namespace Harmos

@@ -156,7 +156,7 @@ void addRow(ContactRow const &row, RowWork const &work, double normal_impulse, b
 void sumConstraint(ContactSystem const &system, ContactRows const &rows, MultiplierSolution const &solution,
                    Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity_n,
                    View<double *[2]> const &half, BodyTable const &mean_bodies, int num_materials,
-                   Exchange const &exchange, ConstraintReport &report, WorkArrays const &arrays)
+                   Exchange const &exchange, bool tell_pressure, ConstraintReport &report, WorkArrays const &arrays)
 {
   RowWorker const worker{system, rows.row, solution.impulse, velocity_n, half, mean_bodies};
   auto const row = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), rows.row);
@@ -172,8 +172,8 @@ void sumConstraint(ContactSystem const &system, ContactRows const &rows, Multipl
   for (int i = 0; i < system.num_own; ++i)
   {
     int const r = own(i);
-    bool const loaded = p(r, 0) != 0.0 || p(r, 1) != 0.0;
-    addRow(row(r), work(i), p(r, 0), loaded, bodies, sums);
+    bool const loaded = tell_pressure && (p(r, 0) != 0.0 || p(r, 1) != 0.0);
+    addRow(row(r), work(i), tell_pressure ? p(r, 0) : 0.0, loaded, bodies, sums);
   }
   for (int i = 0; i < system.num_dofs; ++i)
   {
@@ -183,13 +183,13 @@ void sumConstraint(ContactSystem const &system, ContactRows const &rows, Multipl
   }
   sums.over(exchange);
 
-  report.contact_loss = sums.loss();
-  report.driven_work = sums.work();
-  report.external_impulse = {sums.external()[0], sums.external()[1]};
+  report.contact_loss += sums.loss();
+  report.driven_work += sums.work();
+  report.external_impulse += Vector2{sums.external()[0], sums.external()[1]};
   for (std::size_t b = 0; b < bodies.size(); ++b)
   {
-    report.body_impulse[b] = {sums.body(b)[0], sums.body(b)[1]};
-    report.body_torque[b] = sums.body(b)[2];
+    report.body_impulse[b] += Vector2{sums.body(b)[0], sums.body(b)[1]};
+    report.body_torque[b] += sums.body(b)[2];
   }
   for (int a = -1; a < num_materials; ++a)
     for (int b = -1; b < num_materials; ++b)
@@ -198,7 +198,11 @@ void sumConstraint(ContactSystem const &system, ContactRows const &rows, Multipl
       std::size_t const w = sums.width();
       std::size_t const i = a < 0 ? w - 1 : static_cast<std::size_t>(a),
                         j = b < 0 ? w - 1 : static_cast<std::size_t>(b);
-      report.pair_force[i * w + j] = {{sum[0], sum[1]}, sum[2], sum[3], sum[4]};
+      PairForce &force = report.pair_force[i * w + j];
+      force.impulse += Vector2{sum[0], sum[1]};
+      force.normal_impulse += sum[2];
+      force.area += sum[3];
+      force.squares += sum[4];
     }
 }
 

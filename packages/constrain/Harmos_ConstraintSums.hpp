@@ -8,7 +8,7 @@
 namespace Harmos
 {
 
-/// Impulses, work and pair forces of a solution into a report, over all ranks.
+/// Add impulses, work and pair forces of a solution to a report, over all ranks.
 ///
 /// The kinetic energy of deformable dofs and free bodies changes by the sum over rows of p . G v_mean less the part of
 /// the driven sides, and by the node conditions, which take impulse f - P f from a dof:
@@ -17,11 +17,13 @@ namespace Harmos
 ///   change of kinetic energy by the constraints = driven_work - contact_loss, exactly, v_mean = (v_n + half)/2.
 ///
 /// \param mean_bodies Bodies with (V_n + V_half)/2.
+/// \param tell_pressure Whether normal impulses and loaded lengths count for the contact pressure of the pairs.
 /// Collective.
 void sumConstraint(ContactSystem const &system, ContactRows const &rows, MultiplierSolution const &solution,
                    Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &velocity_n,
                    View<double *[2]> const &half, BodyTable const &mean_bodies, int num_materials,
-                   Exchange const &exchange, ConstraintReport &report, WorkArrays const &arrays = {});
+                   Exchange const &exchange, bool tell_pressure, ConstraintReport &report,
+                   WorkArrays const &arrays = {});
 
 /// Add up what the own rows of all ranks carry around their bonds, as their nodes feel it: the same bits on any number
 /// of ranks. Collective.

@@ -37,6 +37,8 @@ struct Motion
   BodyTable bodies;
 };
 
+struct PressureTractions; // Harmos_PressureTractions.hpp
+
 /// Numbers of the rows of one cell are below this; key = global cell * max_cell_rows + number.
 constexpr int max_cell_rows = 2 * max_cell_segments;
 
@@ -62,11 +64,13 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 /// pass each other by more than 0.02 cells in the step.
 ///
 /// \param before v^{n-1/2} \param dt Of the step; 0: no motion is known.
+/// \param tractions Out, where given: what the rows leave of fluids' pressures (Harmos_PressureTractions.hpp).
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                              FilledRegions const &regions, InterfaceSegments const &segments, View<RayHit *> const &hit,
                              SegmentBins const &bins, BoundaryConditions const &conditions, BodyTable const &bodies,
                              std::vector<Bond> const &bonds, ConstraintOptions const &options,
-                             Motion const &before = {}, double dt = 0.0, WorkArrays const &work = {});
+                             Motion const &before = {}, double dt = 0.0, WorkArrays const &work = {},
+                             PressureTractions *tractions = nullptr);
 
 /// One row for every two materials that move a node (Merged: for every two that follow each other in its list, tied),
 /// where they move it: G v = n . (v_b - v_a) of the node's own dofs, n the direction from the volume of a to that of b
@@ -80,11 +84,14 @@ ContactRows buildNodalRows(Mesh const &mesh, CellMaterialPairs const &pairs, Nod
 /// interface on any rank one reduction tells that there are none. Collective.
 /// \param kept Room for the arrays, those of the result included; without it they own their memory.
 /// \param outline, predicted Of the rigid bodies, where their contact comes from outlines (bodies.outlined).
+/// \param tractions As of buildContactRows; with those of the halo as well. Of segments' rows alone: methods nodal and
+///                  merged have none.
 ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                             FilledRegions const &regions, BoundaryConditions const &conditions, BodyTable const &bodies,
                             std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
                             Motion const &before = {}, double dt = 0.0, ConstraintWork *kept = nullptr,
-                            std::vector<Shape> const &outline = {}, std::vector<RigidBody> const &predicted = {});
+                            std::vector<Shape> const &outline = {}, std::vector<RigidBody> const &predicted = {},
+                            PressureTractions *tractions = nullptr);
 
 /// Give every rank the rows of its halo to depth row_halo. With one rank: nothing.
 void exchangeContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, BodyTable const &bodies,

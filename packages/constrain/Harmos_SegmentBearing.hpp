@@ -14,16 +14,17 @@ struct SegmentBearing
   View<ShortSegments *> of_material; // extent 0: all Dropped
   double least_length;               // ConstraintOptions::shortest_segment
   Placement placement;
+  View<int *> fluid; // by material; extent 0: none
 
   KOKKOS_INLINE_FUNCTION ShortSegments shortSegments(int material) const
   {
     return material >= 0 && of_material.extent(0) > 0 ? of_material(material) : ShortSegments::Dropped;
   }
 
-  /// Whether a segment is of a fluid, whose pressure acts along all of its outline.
+  /// Whether a segment is of a fluid, whose pressure acts on all of its outline.
   KOKKOS_INLINE_FUNCTION bool isPressed(InterfaceSegment const &a) const
   {
-    return shortSegments(a.material) == ShortSegments::Kept;
+    return a.material >= 0 && fluid.extent(0) > 0 && fluid(a.material) != 0;
   }
 
   /// What balances the traction of segment a, where both sides of an interface end in its cell: beside a wall there is

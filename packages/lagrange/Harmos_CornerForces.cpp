@@ -28,7 +28,8 @@ struct CornerForceFunctor
   RowPointer<double, 8> corner_force;
   detail::CutPairs cut;
   View<double *[3]> before;
-  int begin = 0, end = 0; // pairs
+  View<double *[2]> pressure; // extent 0: not kept
+  int begin = 0, end = 0;     // pairs
 
   /// Tension: failed pairs bear none, the others what they would not fail at. failPairs leaves none beyond, but the
   /// remap mixes: of vapour and condensed matter, both without pressure, the mean energy and volume may stand at the
@@ -80,13 +81,23 @@ struct CornerForceFunctor
       auto const v = detail::packedCorners({dof_node, pair, run}, velocity);
       PackedCornerRows const nodes(cell_node, cell, run && countsUp(cell_of + pair[0]));
       Pack const cut_trace = any_cut ? cut.template velocityGradient<geometry>(pair, cell, v).trace() : Pack(0.0);
-      auto const forces = detail::pairForces<geometry>(material, options, detail::loadPackedRecord(record, pair, run),
-                                                       detail::packedCorners(nodes, position), v,
-                                                       bearing(material, pair, cell), cut_trace);
+      auto const own = detail::loadPackedRecord(record, pair, run);
+      auto const forces = detail::pairForces<geometry>(material, options, own, detail::packedCorners(nodes, position),
+                                                       v, bearing(material, pair, cell), cut_trace);
       f = forces.corner;
       if (state.tracks_damage && canFail(material))
         for (int lane = 0; lane < pack_width; ++lane)
           before(pair[lane], BeforeBearing) = laneOf(forces.bearing, lane);
+      if (pressure.extent(0) > 0 && material.strength == StrengthKind::None)
+      {
+        Pack const volume = own.mass * own.specific_volume, p = forces.stress.xx * forces.cell_volume / volume;
+        for (int lane = 0; lane < pack_width; ++lane)
+          if ((lanes >> lane & 1u) != 0u)
+          {
+            pressure(pair[lane], 0) = laneOf(p, lane);
+            pressure(pair[lane], 1) = laneOf(volume, lane);
+          }
+      }
       if (any_cut)
         cut.template addForces<geometry>(pair, cell, forces.stress, forces.cell_volume, f);
     }
@@ -119,7 +130,8 @@ detail::PairKernel kernelOf(Mesh const &mesh, CellMaterialPairs const &pairs, Pa
                                            state.record,
                                            work.corner_force,
                                            detail::CutPairs(work.cut, pairs),
-                                           work.before};
+                                           work.before,
+                                           work.keeps_pressure ? work.pressure : View<double *[2]>()};
   return [whole](int begin, int end)
   {
     CornerForceFunctor<geometry> part = whole;

@@ -30,6 +30,8 @@ double largestCellVolume(Mesh const &mesh)
 void prepareWork(CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes, LagrangeWork &work)
 {
   grow(work.corner_force, "Harmos::lagrange::corner_force", pairs.num_pairs);
+  if (work.keeps_pressure)
+    grow(work.pressure, "Harmos::lagrange::pressure", pairs.num_pairs);
   grow(work.dof_mass, "Harmos::lagrange::dof_mass", dof_nodes.num_dof_nodes);
   grow(work.predicted, "Harmos::lagrange::predicted", dof_nodes.num_dof_nodes);
   grow(work.constrained, "Harmos::lagrange::constrained", dof_nodes.num_dof_nodes);

@@ -58,6 +58,8 @@ struct LagrangeWork
   CutGradients cut;               // of this time's filled regions; empty: no cut cell is told from a pure one
   View<double *> gradient_square; // by row of cut: largest eigenvalue of sum_I B_I B_I^T [1/length^2]
   View<double *[3]> before;       // num_pairs, BeforeField: what failPairs needs of time n
+  bool keeps_pressure = false;    // whether computeCornerForces writes:
+  View<double *[2]> pressure;     // num_pairs: p* + q of the corner forces [Pa] and the volume m sv, of fluids
   MeshPieces pieces;              // of computeForcesAndPredict
 };
 

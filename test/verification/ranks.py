@@ -68,6 +68,12 @@ def test_steps_that_parts_of_cut_cells_shorten():
     clean(compare(HERE / "decks/disc_in_a_ring.yaml"))
 
 
+def test_a_box_of_gas_that_flies():
+    clean(compare(HERE / "decks/gas_in_a_box.yaml", {
+        "bodies/box/angle": 25.0, "bodies/gas/angle": 25.0, "bodies/box/velocity": "[50.0, 30.0]", "bodies/gas/velocity": "[50.0, 30.0]",
+        "mesh/x/cells": 32, "mesh/y/cells": 32, "run/end_time": 1.0}))
+
+
 def test_single_velocity_block():
     clean(compare("sliding_block/deck.yaml", settings(15.0, (0.31, 0.17), 8, kinematics="single"), ranks=(4,)))
 

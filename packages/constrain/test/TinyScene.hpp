@@ -69,7 +69,7 @@ struct TinyScene
   View<double *> dof_mass;
   View<double *[2]> velocity_n, predicted, half;
   std::vector<RigidBody> bodies_n, bodies;
-  View<double *[3]> pair_stress; // Nitsche alone
+  PairStress stress;
   std::vector<Bond> bonds;
   std::vector<ContactForce> last; // options.warm_start alone
   std::vector<Shape> outline;     // of rigid bodies; empty: contact on segments
@@ -133,7 +133,7 @@ struct TinyScene
   {
     bodies = bodies_n;
     return constrainVelocities(mesh, pairs, dof_nodes, regions, conditions, dof_mass, velocity_n, predicted, half,
-                               bodies_n, bodies, dt, dt, pair_stress, bonds, options, *exchange, last, kept, outline);
+                               bodies_n, bodies, dt, dt, stress, bonds, options, *exchange, last, kept, outline);
   }
 
   void forEachDof(std::function<void(int, int, Vector2)> const &visit) const

@@ -387,7 +387,7 @@ TEST(ContactRows, packedAndUnpacked_giveTheSameVelocities)
   ConstraintReport const two =
       constrainVelocities(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions, scene.dof_mass,
                           scene.velocity_n, scene.predicted, scene.half, {}, scene.bodies, scene.dt, scene.dt,
-                          scene.pair_stress, scene.bonds, scene.options, LoneExchange());
+                          scene.stress, scene.bonds, scene.options, LoneExchange());
   auto const packed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.half);
   EXPECT_EQ(one.iterations, two.iterations);
   EXPECT_EQ(one.contact_loss, two.contact_loss);

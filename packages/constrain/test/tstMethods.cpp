@@ -67,8 +67,8 @@ TEST(Methods, nitsche_ofATouchingPairUnderOneStress_isItsTraction)
   {
     TinyScene scene = strip(ConstraintMethod::Nitsche);
     scene.setVelocity([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
-    scene.pair_stress = View<double *[3]>("stress", scene.pairs.num_pairs);
-    Kokkos::deep_copy(Kokkos::subview(scene.pair_stress, Kokkos::ALL, 0), stress);
+    scene.stress.cauchy = View<double *[3]>("stress", scene.pairs.num_pairs);
+    Kokkos::deep_copy(Kokkos::subview(scene.stress.cauchy, Kokkos::ALL, 0), stress);
     ConstraintReport const report = scene.constrain();
     EXPECT_NEAR(report.pair_force[3 * 1].normal_impulse, scene.dt * std::max(-stress, 0.0), 1e-9 * scene.dt * 5.0e6);
     expectMomentum(scene);

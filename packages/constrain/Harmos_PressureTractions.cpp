@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_ContactOperator.hpp>
+#include <Harmos_PressureTractions.hpp>
+#include <Harmos_RowBuilder.hpp>
+
+namespace Harmos
+{
+
+namespace
+{
+
+/// A traction, per pressure: along the normal of a row and across it.
+struct PlannedTraction
+{
+  double along, across;
+
+  KOKKOS_INLINE_FUNCTION bool any() const { return along != 0.0 || across != 0.0; }
+};
+
+struct TractionFinder
+{
+  static constexpr int most = 3; // of a segment: its own, and those of its rows
+
+  RowBuilder builder;
+  View<PlannedRows *> planned;
+
+  /// Whether segment i is a facet whose pressure counts, on what it faces.
+  KOKKOS_INLINE_FUNCTION bool isPressed(int i) const
+  {
+    InterfaceSegment const &a = builder.segment(i);
+    int const facing = builder.hit(i).segment;
+    if (!builder.bearing.isPressed(a) || facing < 0)
+      return false;
+    InterfaceSegment const &b = builder.segment(facing);
+    if (b.material < 0)
+      return true;
+    bool const other_counts = builder.bearing.isPressed(b) && !builder.isSlave(a, b);
+    bool const tied = builder.options.interaction(a.material, b.material).kind == Interaction::Bonded;
+    return !other_counts && !tied && builder.haveOwnNodes(a);
+  }
+
+  /// Whether two segments are the two sides of one line.
+  KOKKOS_INLINE_FUNCTION bool areOne(int i, int facing) const
+  {
+    constexpr double round_off = 1e-12;
+    InterfaceSegment const &a = builder.segment(i), &b = builder.segment(facing);
+    double const least = round_off * a.cell_size;
+    return builder.hit(facing).segment == i && b.cell == a.cell && norm(a.midpoint - b.midpoint) <= least &&
+           Math::fabs(a.length - b.length) <= least;
+  }
+
+  /// Normal of the one row, from pressed segment i on, that acts over just this segment; zero without one.
+  KOKKOS_INLINE_FUNCTION Vector2 rowNormal(int i) const
+  {
+    int const facing = builder.hit(i).segment;
+    if (planned(i).count == 1)
+      return planned(i).normal[0];
+    return planned(i).count == 0 && planned(facing).count == 1 && areOne(i, facing) ? -planned(facing).normal[0]
+                                                                                    : Vector2{0.0, 0.0};
+  }
+
+  /// Number k of segment i: 0 of its own pressure, 1 and 2 of its rows.
+  KOKKOS_INLINE_FUNCTION PlannedTraction traction(int i, int k) const
+  {
+    constexpr double round_off = 1e-9; // of normals
+    if (builder.mesh.cell_depth(builder.segment(i).cell) != 0)
+      return {0.0, 0.0};
+    if (k > 0)
+      return {k <= planned(i).count && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
+    if (!isPressed(i))
+      return {0.0, 0.0};
+    Vector2 const n = builder.segment(i).normal, rest = n - rowNormal(i);
+    return norm(rest) < round_off ? PlannedTraction{0.0, 0.0}
+                                  : PlannedTraction{dot(n, rest), dot(perpendicular(n), rest)};
+  }
+
+  KOKKOS_INLINE_FUNCTION ContactRow rowOf(int i, int k) const
+  {
+    PlannedRows own = {};
+    if (k == 0)
+    {
+      own.count = 1;
+      own.normal[0] = builder.segment(i).normal;
+      own.hit[0] = builder.hit(i);
+    }
+    ContactRow row = k == 0 ? builder.makeRow(i, own, 0) : builder.makeRow(i, planned(i), k - 1);
+    row.tied = 0;
+    row.friction = 1.0; // so that it has two directions
+    row.restitution = 0.0;
+    row.bond = -1;
+    return row;
+  }
+
+private:
+  /// Whether a row bears a pressed facet, but not over just that.
+  KOKKOS_INLINE_FUNCTION bool isUnmatched(int i, int half) const
+  {
+    if (isPressed(i))
+      return planned(i).count == 2;
+    int const facing = planned(i).hit[half].segment;
+    return isPressed(facing) && builder.segment(builder.hit(facing).segment).material == builder.segment(i).material &&
+           !(planned(facing).count == 0 && planned(i).count == 1 && builder.hit(facing).segment == i &&
+             areOne(facing, i));
+  }
+};
+
+/// What the facets press with.
+struct FacetPressure
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  View<double *[2]> pressure;
+  View<double *> impedance;
+  View<int *> fluid;
+
+  /// Mean over a cell and those around it.
+  KOKKOS_INLINE_FUNCTION double around(int cell, int material) const
+  {
+    double load = 0.0, volume = 0.0;
+    auto const add = [&](int pair)
+    {
+      load += pair < 0 ? 0.0 : pressure(pair, 0) * pressure(pair, 1);
+      volume += pair < 0 ? 0.0 : pressure(pair, 1);
+    };
+    add(pairs.find(cell, material));
+    for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
+      add(pairs.find(mesh.cell_neighbour.item(e), material));
+    return load / volume;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool presses(int material, int body) const
+  {
+    return material >= 0 && body == -1 && fluid(material) != 0;
+  }
+
+  KOKKOS_INLINE_FUNCTION double operator()(ContactRow const &row) const
+  {
+    bool const a = presses(row.material_a, row.body_a), b = presses(row.material_b, row.body_b);
+    double const p_a = a ? around(row.cell_a, row.material_a) : 0.0, p_b = b ? around(row.cell_b, row.material_b) : 0.0;
+    double part_a = a ? 1.0 : 0.0;
+    if (a && b)
+    {
+      double const z_a = impedance(row.material_a), z_b = impedance(row.material_b);
+      part_a = z_a + z_b > 0.0 ? z_b / (z_a + z_b) : 0.5;
+    }
+    return Math::max(part_a * p_a + (1.0 - part_a) * p_b, 0.0);
+  }
+};
+
+} // namespace
+
+PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
+                                        WorkArrays const &work)
+{
+  TractionFinder const finder{builder, planned};
+  constexpr int most = TractionFinder::most;
+  int const count = builder.segments.count;
+  View<PlannedTraction *[most]> const traction =
+      work.unset<PlannedTraction *[most]>("Harmos::constrain::traction", count);
+  View<int *> const place = work.unset<int *>("Harmos::constrain::traction_place", count);
+  PressureTractions found;
+  launchFor(
+      "Harmos::constrain::planTractions", count, KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < most; ++k)
+          traction(i, k) = finder.traction(i, k);
+      });
+  launchScan(
+      "Harmos::constrain::countTractions", count,
+      KOKKOS_LAMBDA(int i, int &sum, bool final) {
+        if (final)
+          place(i) = sum;
+        for (int k = 0; k < most; ++k)
+          sum += traction(i, k).any() ? 1 : 0;
+      },
+      found.rows.count);
+  found.rows.num_own = found.rows.count;
+  found.rows.num_multipliers = 2 * static_cast<long long>(found.rows.count);
+  found.rows.row = work.unset<ContactRow *>("Harmos::constrain::traction_row", found.rows.count);
+  found.rows.own = work.unset<int *>("Harmos::constrain::own_traction", found.rows.count);
+  found.along = work.unset<double *[2]>("Harmos::constrain::traction_along", found.rows.count);
+  View<ContactRow *> const row = found.rows.row;
+  View<int *> const own = found.rows.own;
+  View<double *[2]> const along = found.along;
+  launchFor(
+      "Harmos::constrain::makeTractions", count, KOKKOS_LAMBDA(int i) {
+        int r = place(i);
+        for (int k = 0; k < most; ++k)
+        {
+          if (!traction(i, k).any())
+            continue;
+          row(r) = finder.rowOf(i, k);
+          own(r) = r;
+          along(r, 0) = traction(i, k).along;
+          along(r, 1) = traction(i, k).across;
+          ++r;
+        }
+      });
+  return found;
+}
+
+PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Mesh const &mesh,
+                                  CellMaterialPairs const &pairs, View<double *[2]> const &pressure,
+                                  ConstraintOptions const &options, double kick, Exchange const &exchange,
+                                  WorkArrays const &work)
+{
+  constexpr double thin = 1e-3; // void through which what lies on each other is felt [cells]
+  PressureImpulses found;
+  found.system = system;
+  View<double *[2]> const impulse = work.zeros<double *[2]>("Harmos::constrain::pressure_impulse", system.num_rows);
+  View<double *[2]> const velocity = work.unset<double *[2]>("Harmos::constrain::facet_velocity", system.num_rows);
+  FacetPressure const press{mesh, pairs, pressure, options.impedance, options.fluid};
+  View<ContactRow *> const row = tractions.rows.row;
+  View<double *[2]> const along = tractions.along;
+  ContactSystem const s = system;
+  launchFor(
+      "Harmos::constrain::pressureImpulses", s.num_own, KOKKOS_LAMBDA(int i) {
+        int const r = s.own(i);
+        ContactRow const &facet = row(r);
+        if (facet.gap > thin * Math::sqrt(mesh.cell_area(facet.cell_a)) && s.predicted(r, 0) >= 0.0)
+          return;
+        double const load = kick * facet.length * press(facet);
+        impulse(r, 0) = load * along(i, 0);
+        impulse(r, 1) = load * along(i, 1);
+      });
+  ContactOperator const contact(found.system, tractions.rows, exchange, work);
+  contact.product(impulse, velocity);
+  found.solution.impulse = impulse;
+  found.solution.change = contact.change();
+  found.solution.body_change = contact.bodyChange();
+  return found;
+}
+
+} // namespace Harmos

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_PRESSURE_TRACTIONS_HPP
+#define HARMOS_PRESSURE_TRACTIONS_HPP
+
+#include <Harmos_ContactSystem.hpp>
+#include <Harmos_MultiplierSolver.hpp>
+
+namespace Harmos
+{
+
+struct PlannedRows;
+struct RowBuilder;
+
+/// \brief What the rows leave of a fluid's pressure.
+///
+/// The pressure p of a fluid drives its nodes by p n_f on each facet f of its outline, n_f the facet's own normal. Rows
+/// r bear it along their fitted normals n_r, at their places: across these, where a facet carries no row (short pieces
+/// of cell faces beside a chord that stands for a corner), and where its row stands on the body's side and has another
+/// length, nothing would. Fluid and body are pushed apart there, and light nodes go far. So each facet that lies on a
+/// body has p n_f there as a traction between the two, and each row of such a facet less by p n_r,
+///
+///   T = p (sum over facets n_f - sum over rows n_r),
+///
+/// with the weights of rows, before the multipliers are found: a fluid of one pressure on bodies at rest is in balance
+/// with the multipliers p, whatever facets the reconstruction made (doc/decisions/0029). Where a row acts over just its
+/// facet the two are one.
+struct PressureTractions
+{
+  ContactRows rows;        // one for each traction; num_multipliers counts two for each
+  View<double *[2]> along; // num_own: the traction per pressure, along the row's normal and across it
+};
+
+/// The tractions of the segments of owned cells. Of two fluids the slave's facets count; bonded pairs have none. The
+/// caller sums num_multipliers and exchanges the rows.
+/// \param planned The rows of each segment.
+PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
+                                        WorkArrays const &work);
+
+/// The tractions at work.
+struct PressureImpulses
+{
+  ContactSystem system;
+  MultiplierSolution solution; // impulses along the rows' normals and across them, and the changes of velocity
+};
+
+/// Impulses of the tractions over `kick`, where their sides touch: a void of at most 1e-3 cells, or closed by the end
+/// of the step at v*. None in tension.
+///
+/// p is the mean over the fluid's part of the cell and of those around it, by volume. With the cell's own the tractions
+/// would take away all that resists a light sliver's sliding into a corner, and noise grew (e-fold in 0.8 ms beside a
+/// square of 0.7 m in air). Between two fluids p is the mean weighted by the other's impedance: the softer decides.
+/// \param pressure Of the pairs [Pa], and the volumes that they fill
+/// \param system Of tractions.rows, at v*. Collective.
+PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Mesh const &mesh,
+                                  CellMaterialPairs const &pairs, View<double *[2]> const &pressure,
+                                  ConstraintOptions const &options, double kick, Exchange const &exchange,
+                                  WorkArrays const &work);
+
+} // namespace Harmos
+
+#endif

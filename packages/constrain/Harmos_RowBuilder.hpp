@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_ROW_BUILDER_HPP
+#define HARMOS_ROW_BUILDER_HPP
+
+#include <Harmos_BentEdge.hpp>
+#include <Harmos_BondBins.hpp>
+#include <Harmos_ContactRows.hpp>
+#include <Harmos_FacingSegments.hpp>
+#include <Harmos_Fullness.hpp>
+#include <Harmos_SegmentBearing.hpp>
+
+namespace Harmos
+{
+
+/// The rows of a segment, before they are written.
+struct PlannedRows
+{
+  int count; // 0, 1 or 2
+  Vector2 normal[2];
+  RayHit hit[2];
+};
+
+/// An end of a segment with one row may come by this in a step: half of the segment then overlaps by sqrt(2)/8 of it,
+/// 0.004 of a cell. What lies on each other, or rolls, keeps one row. [cells]
+constexpr double most_approach = 0.02;
+
+/// An end that is, or gets, ahead of the middle by less goes through with the middle. [cells]
+constexpr double least_lead = 1e-3;
+
+struct RowBuilder
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  NodeMaterialPairs dof_nodes;
+  FilledRegions regions;
+  SegmentBearing bearing;
+  InterfaceSegments segments;
+  View<InterfaceSegment *> segment; // theirs
+  View<RayHit *> hit;
+  FacingSegments facing;
+  BodyTable bodies;
+  View<Boundary *> boundary;
+  BondBins bonds;
+  ConstraintOptions options;
+  SegmentBins bins;
+  Motion before;
+  double dt;
+
+  KOKKOS_INLINE_FUNCTION int bodyOf(int material) const { return material < 0 ? -2 : bodies.of_material(material); }
+
+  KOKKOS_INLINE_FUNCTION bool isSlave(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    constexpr double finer = 0.8;
+    if (b.material < 0 || a.cell_size < finer * b.cell_size)
+      return true;
+    return a.material < b.material && !(b.cell_size < finer * a.cell_size);
+  }
+
+  /// Whether the rows between two sides come from their outlines (Harmos_OutlineRows.hpp).
+  KOKKOS_INLINE_FUNCTION bool meetByOutline(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    return bodies.outlined && bodyOf(a.material) >= 0 && bodyOf(b.material) != -1 &&
+           (b.material < 0 || options.interaction(a.material, b.material).kind != Interaction::Bonded);
+  }
+
+  /// Whether two sides pass each other by so much in this step that no length is too short for a row.
+  KOKKOS_INLINE_FUNCTION bool pass(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    if (!(dt > 0.0))
+      return false;
+    Vector2 const apart = dt * (velocityAt(motionOf(a), a.midpoint) - velocityAt(motionOf(b), a.midpoint));
+    double const least = most_approach * a.cell_size;
+    return dot(apart, apart) > least * least;
+  }
+
+  /// Whether segment a, which faces b, carries no row for its length. Where tractions are shared its own goes to the
+  /// rows at its ends, but where bodies pass each other: what lies still wants few rows, what goes through wants many.
+  KOKKOS_INLINE_FUNCTION bool isTooShort(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    if (a.parts * a.length >= options.shortest_segment * a.cell_size)
+      return false;
+    return a.parts * a.length < bearing.shortest(a, b, fullness(mesh, pairs, regions, a.cell)) &&
+           !(bearing.balance(a, b) == ShortSegments::Shared && pass(a, b));
+  }
+
+  static KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 const &x)
+  {
+    constexpr double distance = 1e-6; // in lengths of the face
+    Vector2 const face = q[(k + 1) % 4] - q[k];
+    return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
+  }
+
+  KOKKOS_INLINE_FUNCTION bool carriesRow(int i) const
+  {
+    InterfaceSegment const &a = segment(i);
+    if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0 ||
+        (a.face >= 0 && a.exposed < options.exposed_face))
+      return false;
+    InterfaceSegment const &b = segment(hit(i).segment);
+    if (isTooShort(a, b))
+      return false;
+    if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
+        meetByOutline(a, b))
+      return false;
+    return b.material < 0 || haveOwnNodes(a);
+  }
+
+  /// In kinematics `single` both sides of an interface move with the same dof nodes.
+  KOKKOS_INLINE_FUNCTION bool haveOwnNodes(InterfaceSegment const &a) const
+  {
+    return dof_nodes.material(pairs.dof_node(a.pair, 0)) != -1;
+  }
+
+  /// From a to b, of the wall or the outline of a rigid body that a meets, or is of; zero where there is none.
+  KOKKOS_INLINE_FUNCTION Vector2 exactNormal(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    if (b.material < 0)
+      return -b.normal;
+    int const body_a = bodyOf(a.material), body_b = bodyOf(b.material);
+    if (body_b >= 0)
+      return -bodies.surfaces.normalAt(body_b, b.midpoint, b.normal, b.cell_size, a.point);
+    if (body_a >= 0)
+      return bodies.surfaces.normalAt(body_a, a.midpoint, a.normal, a.cell_size, a.point);
+    return {0.0, 0.0};
+  }
+
+  /// The normal of the row of a segment, or a part of one, that faces another; zero where it carries none. Beside a
+  /// fluid each segment is borne along its own normal where none is told by those around it.
+  KOKKOS_INLINE_FUNCTION Vector2 rowNormal(InterfaceSegment const &a, int facing_it) const
+  {
+    InterfaceSegment const &b = segment(facing_it);
+    bool const pressed = bearing.isPressed(a) || bearing.isPressed(b);
+    Vector2 n = exactNormal(a, b);
+    if (n[0] == 0.0 && n[1] == 0.0)
+      n = contactNormal(segment, facing, options.shortest_segment, a, facing_it, pressed);
+    if (dot(a.normal, n) >= fit_least_cosine)
+      return n;
+    return pressed ? a.normal : Vector2{0.0, 0.0};
+  }
+
+  /// The motion of the material of a segment, at v^{n-1/2}.
+  struct SideMotion
+  {
+    int body;
+    Quadrilateral cell; // of deformable ones, with the velocities of its corners
+    Vector2 velocity[4];
+  };
+
+  KOKKOS_INLINE_FUNCTION SideMotion motionOf(InterfaceSegment const &s) const
+  {
+    SideMotion motion;
+    motion.body = bodyOf(s.material);
+    if (motion.body != -1)
+      return motion;
+    motion.cell = cellQuadrilateral(mesh, s.cell);
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = pairs.dof_node(s.pair, k);
+      motion.velocity[k] = {before.velocity(dof, 0), before.velocity(dof, 1)};
+    }
+    return motion;
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(SideMotion const &motion, Vector2 const &point) const
+  {
+    if (motion.body >= 0)
+      return before.bodies.body(motion.body).velocityAt(point);
+    Vector2 v{0.0, 0.0};
+    if (motion.body == -2)
+      return v;
+    double weight[4];
+    shapeFunctionsAt(motion.cell, point, weight);
+    for (int k = 0; k < 4; ++k)
+      v += weight[k] * motion.velocity[k];
+    return v;
+  }
+
+  /// Speed at which a point of side a approaches the point of side b that lies `gap` away along a's normal.
+  KOKKOS_INLINE_FUNCTION double closing(SideMotion const &a, SideMotion const &b, Vector2 const &normal,
+                                        Vector2 const &point, double gap) const
+  {
+    return dot(normal, velocityAt(a, point) - velocityAt(b, point + gap * normal));
+  }
+
+  /// Whether in this step an end of a segment would go through what it faces while its middle is held.
+  KOKKOS_INLINE_FUNCTION bool endGoesThrough(InterfaceSegment const &a, RayHit const &to) const
+  {
+    InterfaceSegment const &b = segment(to.segment);
+    if (!(dt > 0.0) || options.placement != Placement::Midpoint || a.parts > 1 ||
+        (b.material >= 0 && options.interaction(a.material, b.material).kind == Interaction::Bonded))
+      return false;
+    double const slope = dot(a.normal, b.normal);
+    SideMotion const of_a = motionOf(a), of_b = motionOf(b);
+    for (double const side : {-0.5, 0.5})
+    {
+      Vector2 const end = a.midpoint + (side * a.length) * perpendicular(a.normal);
+      double const gap = dot(b.midpoint - end, b.normal) / slope; // to the line of b
+      double const comes = dt * closing(of_a, of_b, a.normal, end, gap);
+      if (comes <= most_approach * a.cell_size)
+        continue;
+      double const middle = dt * closing(of_a, of_b, a.normal, a.midpoint, to.gap);
+      if ((to.gap - gap) + (comes - middle) > least_lead * a.cell_size)
+        return true;
+    }
+    return false;
+  }
+
+  /// A half of a segment, with its Gauss point of the whole.
+  static KOKKOS_INLINE_FUNCTION InterfaceSegment halfOf(InterfaceSegment const &whole, int half)
+  {
+    Vector2 const along = (half == 0 ? whole.length : -whole.length) * perpendicular(whole.normal);
+    InterfaceSegment s = whole;
+    s.midpoint = whole.midpoint + 0.25 * along;
+    s.point = whole.midpoint + (0.5 - gauss_point) * along;
+    s.length = 0.5 * whole.length;
+    s.parts = 2;
+    return s;
+  }
+
+  KOKKOS_INLINE_FUNCTION void plan(int i, PlannedRows &rows) const
+  {
+    rows.count = 0;
+    if (!carriesRow(i))
+      return;
+    rows.hit[0] = hit(i);
+    rows.normal[0] = rowNormal(segment(i), hit(i).segment);
+    if (rows.normal[0][0] == 0.0 && rows.normal[0][1] == 0.0)
+      return;
+    rows.count = 1;
+    if (endGoesThrough(segment(i), hit(i)))
+      planHalves(i, rows);
+  }
+
+  /// Two rows in the place of one, where both halves carry one.
+  KOKKOS_INLINE_FUNCTION void planHalves(int i, PlannedRows &rows) const
+  {
+    PlannedRows two = {};
+    for (; two.count < 2; ++two.count)
+    {
+      InterfaceSegment const s = halfOf(segment(i), two.count);
+      RayHit const to = castRay(mesh, segments, bins, s, i);
+      if (to.segment < 0 || segment(to.segment).material != segment(hit(i).segment).material)
+        return;
+      Vector2 const n = rowNormal(s, to.segment);
+      if (n[0] == 0.0 && n[1] == 0.0)
+        return;
+      two.hit[two.count] = to;
+      two.normal[two.count] = n;
+    }
+    rows = two;
+  }
+
+  /// How the traction of a row acts on a side.
+  struct Traction
+  {
+    Vector2 middle;  // of what bears it
+    Vector2 half;    // from there to an end; zero: it acts at a point
+    double bend;     // of the segment's image in the middle (edgeWeights)
+    double share[2]; // lengths of the segments at the ends whose tractions it takes, over its own
+  };
+
+  /// Weights by which the volumes on both sides of a segment follow the nodes (edgeWeights), so that rows and the
+  /// stress over what a material fills speak of the same change of volume, and the traction acts on the nodes as the
+  /// stress does; at a point: the shape functions. Sides that move as a rigid body, or not at all, have none.
+  KOKKOS_INLINE_FUNCTION void fillSide(InterfaceSegment const &s, Traction const &traction, int body, int dof[4],
+                                       double weight[4]) const
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      weight[k] = 0.0;
+      dof[k] = body == -1 ? pairs.dof_node(s.pair, k) : -1;
+    }
+    if (body != -1)
+      return;
+    Quadrilateral const q = cellQuadrilateral(mesh, s.cell);
+    if (traction.half[0] == 0.0 && traction.half[1] == 0.0)
+    {
+      shapeFunctionsAt(q, traction.middle, weight);
+      return;
+    }
+    AreaWeight const ring = areaWeight(mesh.geometry, {0.0, 0.0});
+    Vector2 const x[3] = {traction.middle - traction.half, traction.middle, traction.middle + traction.half};
+    EdgeWeights const own = edgeWeights(ring, x[0], x[2], traction.bend);
+    double const part[3] = {own.first + 0.5 * traction.share[0] * ring.at(x[0]), own.middle,
+                            own.second + 0.5 * traction.share[1] * ring.at(x[2])};
+    double const total = part[0] + part[1] + part[2];
+    if (!(total > 0.0)) // on the axis
+    {
+      shapeFunctionsAt(q, traction.middle, weight);
+      return;
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      double N[4];
+      shapeFunctionsAt(q, x[i], N);
+      for (int k = 0; k < 4; ++k)
+        weight[k] += part[i] / total * N[k];
+    }
+  }
+
+  /// Length of the segment between the same materials that goes on beyond the cell face on which an end of segment a
+  /// lies, where it is too short for a row and shares its traction; else zero.
+  KOKKOS_INLINE_FUNCTION double shortBeyond(InterfaceSegment const &a, InterfaceSegment const &b,
+                                            Vector2 const &end) const
+  {
+    double const near = options.shortest_segment * a.cell_size;
+    Quadrilateral const q = cellQuadrilateral(mesh, a.cell);
+    for (int k = 0; k < 4; ++k)
+    {
+      int const beyond = mesh.face_neighbour(a.cell, k);
+      if (beyond < 0 || !isOnFace(q, k, end))
+        continue;
+      int const cell = beyond / 4;
+      for (int i = segments.firstOf(cell); i < segments.count && segment(i).cell == cell; ++i)
+      {
+        InterfaceSegment const &s = segment(i);
+        if (s.material != a.material || hit(i).segment < 0)
+          continue;
+        InterfaceSegment const &faced = segment(hit(i).segment);
+        if (faced.material != b.material || bearing.balance(s, faced) != ShortSegments::Shared || !isTooShort(s, faced))
+          continue;
+        Vector2 const half = (0.5 * s.length) * perpendicular(s.normal);
+        Vector2 const from = s.midpoint - half - end, to = s.midpoint + half - end;
+        if (Math::min(dot(from, from), dot(to, to)) < near * near)
+          return s.length;
+      }
+    }
+    return 0.0;
+  }
+
+  /// How the traction of segment a acts: at its point, or over as much of it as its cell is full.
+  KOKKOS_INLINE_FUNCTION Traction tractionOf(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    Traction found = {a.point, {0.0, 0.0}, 0.0, {0.0, 0.0}};
+    ShortSegments const balance = bearing.balance(a, b);
+    if (balance == ShortSegments::Dropped)
+      return found;
+    double const full = fullness(mesh, pairs, regions, a.cell);
+    double const part = balance == ShortSegments::Kept ? 1.0 : full;
+    Vector2 const half = (0.5 * a.length) * perpendicular(a.normal);
+    bool const bends = a.parts * a.length >= options.shortest_segment * a.cell_size;
+    if (a.parts == 1 || bends) // halves of a bent segment have its middle as an end
+    {
+      found.middle = a.point + part * (a.midpoint - a.point);
+      found.half = part * half;
+      found.bend = a.parts == 1 && bends ? full : 0.0;
+    }
+    else // the traction of half a straight one is its end's
+    {
+      Vector2 const end = a.midpoint + (dot(a.point - a.midpoint, half) > 0.0 ? half : -half);
+      found.middle = a.point + part * (end - a.point);
+    }
+    if (balance == ShortSegments::Shared && full > 0.0)
+      for (int end = 0; end < 2; ++end)
+        found.share[end] =
+            full * shortBeyond(a, b, a.midpoint + (end - 0.5) * a.length * perpendicular(a.normal)) / a.length;
+    return found;
+  }
+
+  /// Number of the nearest bond of the row's materials within reach.
+  KOKKOS_INLINE_FUNCTION int nearestBond(ContactRow const &row) const
+  {
+    return bonds.nearest(row.point, bond_reach * Math::sqrt(mesh.cell_area(row.cell_a)),
+                         Math::min(row.material_a, row.material_b), Math::max(row.material_a, row.material_b));
+  }
+
+  /// What acts along the row besides its normal contact.
+  KOKKOS_INLINE_FUNCTION void setInteraction(InterfaceSegment const &b, ContactRow &row) const
+  {
+    row.bond = -1;
+    if (b.material < 0)
+    {
+      Boundary const &wall = boundary(mesh.face_boundary(b.cell, b.face));
+      row.friction = wall.friction;
+      row.restitution = wall.restitution;
+      return;
+    }
+    PairInteraction const &law = options.interaction(row.material_a, row.material_b);
+    row.restitution = law.restitution;
+    if (law.kind == Interaction::Friction)
+      row.friction = law.friction;
+    if (law.kind != Interaction::Bonded || row.gap > bond_gap * Math::sqrt(mesh.cell_area(row.cell_a)))
+      return;
+    if (law.strength.limited())
+    {
+      row.bond = nearestBond(row);
+      row.tied = row.bond >= 0 && !bonds.bond(row.bond).broken ? 1 : 0;
+    }
+    else
+      row.tied = 1;
+  }
+
+  KOKKOS_INLINE_FUNCTION ContactRow makeRow(int i, PlannedRows const &rows, int half) const
+  {
+    InterfaceSegment const a = rows.count == 2 ? halfOf(segment(i), half) : segment(i);
+    InterfaceSegment const &b = segment(rows.hit[half].segment);
+    ContactRow row = {};
+    row.key = mesh.cell_global(a.cell) * max_cell_rows + 2 * a.number + half;
+    row.material_a = a.material;
+    row.material_b = b.material;
+    row.body_a = bodyOf(a.material);
+    row.body_b = bodyOf(b.material);
+    row.cell_a = a.cell;
+    row.cell_b = b.cell;
+    row.point = a.point;
+    row.normal = rows.normal[half];
+    row.gap = rows.hit[half].gap;
+    row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
+    setInteraction(b, row);
+    Traction traction = tractionOf(a, b);
+    row.length *= 1.0 + 0.5 * (traction.share[0] + traction.share[1]);
+    fillSide(a, traction, row.body_a, row.dof_a, row.weight_a);
+    traction.middle += row.gap * a.normal;
+    fillSide(b, traction, row.body_b, row.dof_b, row.weight_b);
+    return row;
+  }
+};
+
+} // namespace Harmos
+
+#endif

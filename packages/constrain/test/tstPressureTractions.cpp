@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TinyScene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace Harmos;
+using namespace HarmosTest;
+
+namespace
+{
+
+constexpr double pressure = 3.0;
+
+/// A fluid and a body of which each cell of the fourth row holds a piece, along a line of its own: steps lie between
+/// them on the cell faces, too short for rows.
+TinyScene steps(int fluid, double body_density, double open = 0.0)
+{
+  auto const line = [](Quadrilateral const &q)
+  {
+    int const column = static_cast<int>(std::floor(0.25 * (q[0][0] + q[1][0] + q[2][0] + q[3][0])));
+    double const slope = 0.2 * std::sin(2.3 * column), height = 3.45 + 0.1 * std::cos(1.7 * column);
+    Vector2 const n = normalised(Vector2{-slope, 1.0});
+    return Plane2{n, dot(n, Vector2{column + 0.5, height})};
+  };
+  auto const piece = [line](Quadrilateral const &q, bool above, double aside)
+  {
+    Plane2 plane = line(q);
+    plane.offset += aside;
+    Region part;
+    clip(wholeCell(q), above ? Plane2{-plane.normal, -plane.offset} : plane, part);
+    return part;
+  };
+  std::vector<double> density(2, body_density);
+  density[static_cast<std::size_t>(fluid)] = 1.0;
+  TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)),
+                  {{0, [piece](Quadrilateral const &q) { return piece(q, false, 0.0); }},
+                   {1, [piece, open](Quadrilateral const &q) { return piece(q, true, open); }}},
+                  2, {BoundaryKind::SlipWall, BoundaryKind::SlipWall, BoundaryKind::SlipWall, BoundaryKind::SlipWall},
+                  Kinematics::Xfem, density);
+  std::vector<int> is_fluid(2, 0);
+  is_fluid[static_cast<std::size_t>(fluid)] = 1;
+  scene.options.fluid = deviceCopy("fluid", is_fluid);
+  scene.options.short_segments = deviceCopy(
+      "short_segments", std::vector<ShortSegments>{fluid == 0 ? ShortSegments::Kept : ShortSegments::Dropped,
+                                                   fluid == 1 ? ShortSegments::Kept : ShortSegments::Dropped});
+  scene.options.impedance = deviceCopy("impedance", std::vector<double>(2, 1.0));
+  scene.dt = 1.0;
+  return scene;
+}
+
+/// Pressure p in all of the fluid's pairs.
+void press(TinyScene &scene, double p)
+{
+  scene.stress.pressure = View<double *[2]>("pressure", scene.pairs.num_pairs);
+  for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+  {
+    scene.stress.pressure(pair, 0) = p;
+    scene.stress.pressure(pair, 1) = scene.record(pair, VolumeFraction);
+  }
+}
+
+/// v* of the fluid by p n on all edges of its regions: the ends and the middle of those inside of cells count as the
+/// volume that they sweep does, those on cell faces in the middle.
+void drive(TinyScene &scene, int fluid, double p)
+{
+  for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+  {
+    if (scene.pairs.material(pair) != fluid)
+      continue;
+    Quadrilateral const q = cellQuadrilateral(scene.mesh, scene.pairs.cell(pair));
+    Region const region = scene.regions.region(scene.mesh, scene.pairs, pair);
+    for (int i = 0; i < region.size; ++i)
+    {
+      Vector2 const a = region[i], b = region[(i + 1) % region.size], edge = b - a;
+      Vector2 const load = scene.dt * p * Vector2{edge[1], -edge[0]};
+      bool const on_face = std::fabs(edge[0]) < 1e-12 || std::fabs(edge[1]) < 1e-12;
+      double const part[3] = {on_face ? 0.0 : 0.25, on_face ? 1.0 : 0.5, on_face ? 0.0 : 0.25};
+      for (int j = 0; j < 3; ++j)
+      {
+        double N[4];
+        shapeFunctionsAt(q, a + (0.5 * j) * edge, N);
+        for (int k = 0; k < 4; ++k)
+          for (int d = 0; d < 2; ++d)
+          {
+            int const dof = scene.pairs.dof_node(pair, k);
+            scene.predicted(dof, d) += part[j] * N[k] * load[d] / scene.dof_mass(dof);
+          }
+      }
+    }
+  }
+  for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+  {
+    int const index = scene.conditions.node_index(scene.dof_nodes.node(dof));
+    if (index < 0)
+      continue;
+    Vector2 const v = scene.conditions.condition(index).apply({scene.predicted(dof, 0), scene.predicted(dof, 1)});
+    scene.predicted(dof, 0) = v[0];
+    scene.predicted(dof, 1) = v[1];
+  }
+}
+
+double fastest(TinyScene const &scene)
+{
+  double most = 0.0;
+  for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+    most = std::max({most, std::fabs(scene.half(dof, 0)), std::fabs(scene.half(dof, 1))});
+  return most;
+}
+
+double largest(View<double *[2]> const &v, View<double *[2]> const &w)
+{
+  double most = 0.0;
+  for (std::size_t dof = 0; dof < v.extent(0); ++dof)
+    most = std::max({most, std::fabs(v(dof, 0) - w(dof, 0)), std::fabs(v(dof, 1) - w(dof, 1))});
+  return most;
+}
+
+} // namespace
+
+TEST(PressureTractions, fluidOfOnePressure_restsOnAnyFacets)
+{
+  for (int const fluid : {0, 1})
+  {
+    TinyScene scene = steps(fluid, 1e9);
+    drive(scene, fluid, pressure);
+    scene.constrain();
+    EXPECT_GT(fastest(scene), 0.1); // by the steps
+    press(scene, pressure);
+    ConstraintReport const report = scene.constrain();
+    EXPECT_LT(fastest(scene), 1e-7);
+    // What the body bears is the pressure on all of the interface: the box's width.
+    Vector2 const on_fluid = report.pair_force[static_cast<std::size_t>(3 * fluid + 1 - fluid)].impulse;
+    EXPECT_NEAR(on_fluid[1], (fluid == 0 ? -8.0 : 8.0) * pressure, 1e-6);
+  }
+}
+
+TEST(PressureTractions, keepMomentumAndTellTheirWork)
+{
+  TinyScene scene = steps(1, 2.0);
+  scene.setVelocity(
+      [](int material, Vector2 const &x) {
+        return material == 0 ? Vector2{0.1, 0.05 * x[0]} : Vector2{-0.2 * x[1], -0.1};
+      });
+  press(scene, pressure);
+  TinyScene::Sums const before = scene.sums(scene.predicted, -2);
+  ConstraintReport const report = scene.constrain();
+  TinyScene::Sums const after = scene.sums(scene.half, -2);
+  // What the walls take is told.
+  for (int d = 0; d < 2; ++d)
+    EXPECT_NEAR(after.momentum[d] - before.momentum[d], report.external_impulse[d], 1e-12);
+  EXPECT_NEAR(after.kinetic - before.kinetic, report.driven_work - report.contact_loss, 1e-11);
+  TinyScene plain = steps(1, 2.0);
+  plain.setVelocity(
+      [](int material, Vector2 const &x) {
+        return material == 0 ? Vector2{0.1, 0.05 * x[0]} : Vector2{-0.2 * x[1], -0.1};
+      });
+  plain.constrain();
+  EXPECT_GT(largest(plain.half, scene.half), 1e-2);
+}
+
+TEST(PressureTractions, actOnlyWhereAFluidPresses)
+{
+  auto const changes = [](double p, double open, Interaction kind)
+  {
+    TinyScene scene = steps(1, 2.0, open);
+    scene.setInteraction(0, 1, {kind, 0.0, 0.0, {}});
+    scene.setVelocity([](int material, Vector2 const &) { return Vector2{0.0, material == 0 ? -1e-3 : 1e-3}; });
+    scene.constrain();
+    View<double *[2]> const without("without", scene.half.extent(0));
+    Kokkos::deep_copy(without, scene.half);
+    press(scene, p);
+    scene.constrain();
+    return largest(without, scene.half);
+  };
+  EXPECT_GT(changes(pressure, 0.0, Interaction::Sliding), 0.1);
+  EXPECT_GT(changes(pressure, 5e-4, Interaction::Sliding), 0.1);
+  EXPECT_EQ(changes(-pressure, 0.0, Interaction::Sliding), 0.0);
+  EXPECT_EQ(changes(pressure, 0.3, Interaction::Sliding), 0.0); // more than the steps
+  EXPECT_EQ(changes(pressure, 0.0, Interaction::Bonded), 0.0);
+}
