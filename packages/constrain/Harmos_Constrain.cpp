@@ -187,7 +187,8 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   table.outlined = !outline.empty() && options.method == ConstraintMethod::Multipliers;
   table.surfaces = rigidSurfaces(outline, arrays);
   BodyTable const table_n = withBodies(table, bodies_n, arrays);
-  bool const presses = options.fluid.extent(0) > 0 && stress.pressure.extent(0) > 0;
+  bool const presses =
+      options.fluid.extent(0) > 0 && stress.pressure.extent(0) > 0 && mesh.geometry == Geometry::Planar;
   PressureTractions tractions;
   ContactRows const rows =
       findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
@@ -215,8 +216,8 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
     ContactSystem const of_facets =
         buildContactSystem(cells, borrowed(pairs), tractions.rows, dofs, borrowed(conditions), borrowed(dof_mass),
                            before, after, bodies, dt, false, arrays);
-    pressure = pressureImpulses(tractions, of_facets, cells, borrowed(pairs), stress.pressure, options, kick, exchange,
-                                arrays);
+    pressure = pressureImpulses(tractions, of_facets, before, cells, borrowed(pairs), stress.pressure, options, kick,
+                                exchange, arrays);
     pushed = arrays.unset<double *[2]>("Harmos::constrain::pushed", predicted.extent(0));
     launchCopy(pushed, predicted);
     addChange(of_facets, pressure.solution.change, pushed);

@@ -72,10 +72,9 @@ struct ContactForce
 /// What the stress of the materials tells the constraints. By pair.
 struct PairStress
 {
-  View<double *[3]> cauchy; // xx, yy, xy; Nitsche's method alone reads it [Pa]
-  View<double *[2]>
-      pressure; // with which fluids (ConstraintOptions::fluid) drive their nodes to v*, viscosity included;
-                // extent 0: it acts along the rows' normals alone (Harmos_PressureTractions.hpp) [Pa]
+  View<double *[3]> cauchy;   // xx, yy, xy; Nitsche's method alone reads it [Pa]
+  View<double *[3]> pressure; // of fluids (ConstraintOptions::fluid) [Pa], volume and mass; extent 0: a pressure acts
+                              // along the rows' normals alone (Harmos_PressureTractions.hpp)
 };
 
 struct ConstraintReport

@@ -34,8 +34,8 @@ struct TractionFinder
     InterfaceSegment const &b = builder.segment(facing);
     if (b.material < 0)
       return true;
-    bool const other_counts = builder.bearing.isPressed(b) && !builder.isSlave(a, b);
     bool const tied = builder.options.interaction(a.material, b.material).kind == Interaction::Bonded;
+    bool const other_counts = builder.bearing.isPressed(b) && !builder.isSlave(a, b);
     return !other_counts && !tied && builder.haveOwnNodes(a);
   }
 
@@ -107,20 +107,28 @@ private:
 /// What the facets press with.
 struct FacetPressure
 {
+  /// Speed of the sides against each other, over sqrt(p / density), from which on the tractions fade; at twice that
+  /// they are none.
+  static constexpr double most_slip = 0.5;
+
   Mesh mesh;
   CellMaterialPairs pairs;
-  View<double *[2]> pressure;
+  View<double *[3]> pressure;
   View<double *> impedance;
   View<int *> fluid;
 
-  /// Mean over a cell and those around it.
+  /// Mean over a cell and those around it, each at most `steep` of the cell's own off that.
   KOKKOS_INLINE_FUNCTION double around(int cell, int material) const
   {
+    constexpr double steep = 0.1;
+    double const own = pressure(pairs.find(cell, material), 0), off = steep * Math::fabs(own);
     double load = 0.0, volume = 0.0;
     auto const add = [&](int pair)
     {
-      load += pair < 0 ? 0.0 : pressure(pair, 0) * pressure(pair, 1);
-      volume += pair < 0 ? 0.0 : pressure(pair, 1);
+      if (pair < 0)
+        return;
+      load += Math::clamp(pressure(pair, 0), own - off, own + off) * pressure(pair, 1);
+      volume += pressure(pair, 1);
     };
     add(pairs.find(cell, material));
     for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
@@ -133,7 +141,14 @@ struct FacetPressure
     return material >= 0 && body == -1 && fluid(material) != 0;
   }
 
-  KOKKOS_INLINE_FUNCTION double operator()(ContactRow const &row) const
+  KOKKOS_INLINE_FUNCTION double densityOf(int cell, int material) const
+  {
+    int const pair = pairs.find(cell, material);
+    return pressure(pair, 2) / pressure(pair, 1);
+  }
+
+  /// \param slip Speed of the sides against each other.
+  KOKKOS_INLINE_FUNCTION double operator()(ContactRow const &row, double slip) const
   {
     bool const a = presses(row.material_a, row.body_a), b = presses(row.material_b, row.body_b);
     double const p_a = a ? around(row.cell_a, row.material_a) : 0.0, p_b = b ? around(row.cell_b, row.material_b) : 0.0;
@@ -143,7 +158,13 @@ struct FacetPressure
       double const z_a = impedance(row.material_a), z_b = impedance(row.material_b);
       part_a = z_a + z_b > 0.0 ? z_b / (z_a + z_b) : 0.5;
     }
-    return Math::max(part_a * p_a + (1.0 - part_a) * p_b, 0.0);
+    double const p = part_a * p_a + (1.0 - part_a) * p_b;
+    if (!(p > 0.0))
+      return 0.0;
+    double density = a ? densityOf(row.cell_a, row.material_a) : 0.0;
+    if (b)
+      density = Math::max(density, densityOf(row.cell_b, row.material_b));
+    return p * Math::clamp(2.0 - slip / (most_slip * Math::sqrt(p / density)), 0.0, 1.0);
   }
 };
 
@@ -198,8 +219,8 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
   return found;
 }
 
-PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Mesh const &mesh,
-                                  CellMaterialPairs const &pairs, View<double *[2]> const &pressure,
+PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,
+                                  Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[3]> const &pressure,
                                   ConstraintOptions const &options, double kick, Exchange const &exchange,
                                   WorkArrays const &work)
 {
@@ -218,7 +239,8 @@ PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSys
         ContactRow const &facet = row(r);
         if (facet.gap > thin * Math::sqrt(mesh.cell_area(facet.cell_a)) && s.predicted(r, 0) >= 0.0)
           return;
-        double const load = kick * facet.length * press(facet);
+        double const slip = norm(relativeVelocity(facet, before.velocity, before.bodies));
+        double const load = kick * facet.length * press(facet, slip);
         impulse(r, 0) = load * along(i, 0);
         impulse(r, 1) = load * along(i, 1);
       });

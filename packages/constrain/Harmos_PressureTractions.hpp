@@ -23,7 +23,7 @@ struct RowBuilder;
 ///
 /// with the weights of rows, before the multipliers are found: a fluid of one pressure on bodies at rest is in balance
 /// with the multipliers p, whatever facets the reconstruction made (doc/decisions/0029). Where a row acts over just its
-/// facet the two are one.
+/// facet the two are one. Planar meshes alone.
 struct PressureTractions
 {
   ContactRows rows;        // one for each traction; num_multipliers counts two for each
@@ -46,13 +46,16 @@ struct PressureImpulses
 /// Impulses of the tractions over `kick`, where their sides touch: a void of at most 1e-3 cells, or closed by the end
 /// of the step at v*. None in tension.
 ///
-/// p is the mean over the fluid's part of the cell and of those around it, by volume. With the cell's own the tractions
-/// would take away all that resists a light sliver's sliding into a corner, and noise grew (e-fold in 0.8 ms beside a
-/// square of 0.7 m in air). Between two fluids p is the mean weighted by the other's impedance: the softer decides.
-/// \param pressure Of the pairs [Pa], and the volumes that they fill
-/// \param system Of tractions.rows, at v*. Collective.
-PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Mesh const &mesh,
-                                  CellMaterialPairs const &pairs, View<double *[2]> const &pressure,
+/// p is the mean over the fluid's part of the cell and of those around it, by volume, each at most a tenth of the
+/// cell's own off that. With the cell's own the tractions would take away all that resists a light sliver's sliding
+/// into a corner, and noise grew (e-fold in 0.8 ms beside a square of 0.7 m in air). Without the viscosity, which
+/// follows the velocity that the tractions make. They do work on what slides: where the sides pass each other by 0.5
+/// sqrt(p / density) they fade, at twice that they are none. Between two fluids p is the mean weighted by the other's
+/// impedance: the softer decides.
+/// \param system Of tractions.rows, at v*. \param before v^{n-1/2}
+/// \param pressure Of the pairs [Pa], the volumes that they fill, their masses. Collective.
+PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,
+                                  Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[3]> const &pressure,
                                   ConstraintOptions const &options, double kick, Exchange const &exchange,
                                   WorkArrays const &work);
 

@@ -28,7 +28,7 @@ struct CornerForceFunctor
   RowPointer<double, 8> corner_force;
   detail::CutPairs cut;
   View<double *[3]> before;
-  View<double *[2]> pressure; // extent 0: not kept
+  View<double *[3]> pressure; // extent 0: not kept
   int begin = 0, end = 0;     // pairs
 
   /// Tension: failed pairs bear none, the others what they would not fail at. failPairs leaves none beyond, but the
@@ -90,12 +90,13 @@ struct CornerForceFunctor
           before(pair[lane], BeforeBearing) = laneOf(forces.bearing, lane);
       if (pressure.extent(0) > 0 && material.strength == StrengthKind::None)
       {
-        Pack const volume = own.mass * own.specific_volume, p = forces.stress.xx * forces.cell_volume / volume;
+        Pack const volume = own.mass * own.specific_volume;
         for (int lane = 0; lane < pack_width; ++lane)
           if ((lanes >> lane & 1u) != 0u)
           {
-            pressure(pair[lane], 0) = laneOf(p, lane);
+            pressure(pair[lane], 0) = laneOf(forces.pressure, lane);
             pressure(pair[lane], 1) = laneOf(volume, lane);
+            pressure(pair[lane], 2) = laneOf(own.mass, lane);
           }
       }
       if (any_cut)
@@ -131,7 +132,7 @@ detail::PairKernel kernelOf(Mesh const &mesh, CellMaterialPairs const &pairs, Pa
                                            work.corner_force,
                                            detail::CutPairs(work.cut, pairs),
                                            work.before,
-                                           work.keeps_pressure ? work.pressure : View<double *[2]>()};
+                                           work.keeps_pressure ? work.pressure : View<double *[3]>()};
   return [whole](int begin, int end)
   {
     CornerForceFunctor<geometry> part = whole;

@@ -53,11 +53,11 @@ TinyScene steps(int fluid, double body_density, double open = 0.0)
 /// Pressure p in all of the fluid's pairs.
 void press(TinyScene &scene, double p)
 {
-  scene.stress.pressure = View<double *[2]>("pressure", scene.pairs.num_pairs);
+  scene.stress.pressure = View<double *[3]>("pressure", scene.pairs.num_pairs);
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
   {
     scene.stress.pressure(pair, 0) = p;
-    scene.stress.pressure(pair, 1) = scene.record(pair, VolumeFraction);
+    scene.stress.pressure(pair, 1) = scene.stress.pressure(pair, 2) = scene.record(pair, VolumeFraction);
   }
 }
 

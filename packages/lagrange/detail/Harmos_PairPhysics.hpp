@@ -51,7 +51,8 @@ struct PairForces
   Corners<T> corner;
   ScaledStress<T> stress; // times m sv / cell volume
   T cell_volume;
-  T bearing; // part of the strain that meets them
+  T bearing;  // part of the strain that meets them
+  T pressure; // of the state alone, none in tension that the pair cannot bear
 };
 
 /// Corner forces on the nodes (equations: computeCornerForces).
@@ -95,7 +96,7 @@ KOKKOS_FORCEINLINE_FUNCTION PairForces<T> pairForces(Material const &material, L
   HourglassVector<T> const gamma = hourglassVector(plane, inverse_area, x);
   T const coefficient = (0.25 * options.hourglass_viscosity) * (pair.mass * inverse_area * c_length);
   return {stressForces(b, stress, gamma, T(coefficient * gamma.amplitude(v.x)), T(coefficient * gamma.amplitude(v.y))),
-          stress, volumeOf(b), part};
+          stress, volumeOf(b), part, p};
 }
 
 /// What the time step needs of a cell.
