@@ -182,14 +182,15 @@ KOKKOS_INLINE_FUNCTION bool hasFlowed(ReconstructionField const &field, CellComp
 /// ended nowhere, most of them in such matter, half of them in fragments.)
 ///
 /// \param normal Of the straight line; leaves the body.
+/// \param poor_misfit That of the straight line (straightMisfit) from which on it is looked for a corner.
 /// \param thorough Of a body drawn alone, whose matter has not flowed: look also where the neighbours hardly miss the
 ///                 straight line, search to the end, and take tips at 1e-4 of the straight line's error.
 HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
                                                  int body, Region const &polygon, Plane2 const *rim,
-                                                 Vector2 const &normal, bool thorough)
+                                                 Vector2 const &normal, bool thorough, double poor_misfit = 1e-2)
 {
   double const hopeful = thorough ? 1e300 : 1e-3;
-  constexpr double misfit_weight = 0.1, least_miss = 1e-9, poor_misfit = 1e-2, near_exact = 1e-6, near_tip = 1e-4;
+  constexpr double misfit_weight = 0.1, least_miss = 1e-9, near_exact = 1e-6, near_tip = 1e-4;
   constexpr double quarter = 0.7853981633974483; // of pi
   constexpr int starts = 7, most_searches = 3;
   constexpr double centroid_first = 1e-3;
@@ -322,8 +323,26 @@ HARMOS_LARGE_FUNCTION EmbeddedCorner embeddedCorner(CellComponents const &compon
   return corner;
 }
 
+/// Whether a cell around one holds a material that is none of its own.
+KOKKOS_INLINE_FUNCTION bool othersAround(ReconstructionField const &field, CellComponents const &components)
+{
+  Rows const &around = field.mesh.cell_neighbour;
+  for (int e = around.offset(components.cell); e < around.offset(components.cell + 1); ++e)
+    for (int pair = field.pairs.offset(around.item(e)); pair < field.pairs.offset(around.item(e) + 1); ++pair)
+    {
+      int const material = field.pairs.material(pair);
+      bool own = false;
+      for (int k = 0; k < components.count; ++k)
+        own = own || components.material[k] == material;
+      if (!own)
+        return true;
+    }
+  return false;
+}
+
 /// Two bodies that fill a cell (but for a film of void), none a sliver, neither has flowed, and a straight line does
 /// not leave them as they are: where one ends in a convex corner inside of the other, two lines leave both as they are.
+/// Where a third is near by most searches would find no corner.
 ///
 /// One of them is a fluid: its pressure acts on every side of its region, and drives it out at the ends of a chord.
 HARMOS_LARGE_FUNCTION RemovalPlan embeddedCornerPlan(ReconstructionField const &field, CellComponents const &components,
@@ -332,6 +351,10 @@ HARMOS_LARGE_FUNCTION RemovalPlan embeddedCornerPlan(ReconstructionField const &
   for (int k = 0; k < 2; ++k)
     if (components.volume[k] < slivers.of(components, k) || hasFlowed(field, components, k))
       return given;
+  if (othersAround(field, components))
+    return given;
+  // Of the straight line: of corners 0.04 and more, beside round sides half is below.
+  constexpr double poor_misfit = 0.02;
   for (int body = 0; body < 2; ++body)
   {
     int const other = 1 - body;
@@ -349,7 +372,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan embeddedCornerPlan(ReconstructionField const &
     ordered.volume[1] += components.count > 2 ? components.volume[2] : 0.0;
     Vector2 const normal =
         momentOfFluidLine(components.polygon, ordered.volume[0], ordered.centroid[0], components.weight).normal;
-    CornerCell const cell = exactCornerCell(field, ordered, 0, components.polygon, nullptr, normal, false);
+    CornerCell const cell = exactCornerCell(field, ordered, 0, components.polygon, nullptr, normal, false, poor_misfit);
     if (cell.error == 1e300)
       continue;
     RemovalPlan plan = given;
