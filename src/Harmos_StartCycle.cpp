@@ -143,8 +143,9 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   if (scene.kinematics == Kinematics::Xfem)
   {
     std::vector<int> const fluid = pressingFluids(scene, laws);
-    s.work.keeps_pressure = std::find(fluid.begin(), fluid.end(), 1) != fluid.end();
-    if (s.work.keeps_pressure && scene.constraint.fluid.extent(0) == 0)
+    bool const any = std::find(fluid.begin(), fluid.end(), 1) != fluid.end();
+    s.work.keeps_pressure = any && scene.mesh.geometry == Geometry::Planar; // where tractions act
+    if (any && scene.constraint.fluid.extent(0) == 0)
       scene.constraint.fluid = deviceCopy("fluid", fluid);
   }
   if (scene.kinematics == Kinematics::Lagrangian && scene.subzone_fraction.extent(0) == 0)

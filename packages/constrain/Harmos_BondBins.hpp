@@ -66,6 +66,8 @@ struct BondBins
   }
 };
 
+/// Bins of bond_reach times the largest cell_size of the bonds, so that a row looks into nine of them where cells keep
+/// their size. Bonds may lie anywhere; without any, `nearest` finds none. Cost: a sort of the bonds.
 BondBins binBonds(std::vector<Bond> const &bonds, WorkArrays const &work = {});
 
 } // namespace Harmos

@@ -27,7 +27,7 @@ struct RowBuilder;
 struct PressureTractions
 {
   ContactRows rows;        // one for each traction; num_multipliers counts two for each
-  View<double *[2]> along; // num_own: the traction per pressure, along the row's normal and across it
+  View<double *[2]> along; // num_own: traction per pressure [1], along the row's normal and across it
 };
 
 /// The tractions of the segments of owned cells. Of two fluids the slave's facets count; bonded pairs have none. The
@@ -40,7 +40,7 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
 struct PressureImpulses
 {
   ContactSystem system;
-  MultiplierSolution solution; // impulses along the rows' normals and across them, and the changes of velocity
+  MultiplierSolution solution; // impulses along the normals and across [N s/m]; changes of velocity [m/s]
 };
 
 /// Impulses of the tractions over `kick`, where their sides touch: a void of at most 1e-3 cells, or closed by the end

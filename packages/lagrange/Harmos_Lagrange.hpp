@@ -59,7 +59,7 @@ struct LagrangeWork
   View<double *> gradient_square; // by row of cut: largest eigenvalue of sum_I B_I B_I^T [1/length^2]
   View<double *[3]> before;       // num_pairs, BeforeField: what failPairs needs of time n
   bool keeps_pressure = false;    // whether computeCornerForces writes:
-  View<double *[3]> pressure;     // num_pairs, of fluids: p without its lag, q [Pa]; volume m sv; mass
+  View<double *[3]> pressure;     // num_pairs, of fluids: p, without lag and viscosity [Pa]; volume m sv; mass
   MeshPieces pieces;              // of computeForcesAndPredict
 };
 
