@@ -3,6 +3,7 @@
 
 #include <Harmos_EquationOfState.hpp>
 #include <Harmos_LocalCell.hpp>
+#include <Harmos_LowerBound.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -188,16 +189,8 @@ std::vector<long long> locatePoints(Mesh const &mesh, std::vector<Vector2> const
         double const scale = Math::sqrt(mesh.cell_area(cell)), slack = 2.0 * nearly * scale;
         double const left = Math::min(Math::min(q[0][0], q[1][0]), Math::min(q[2][0], q[3][0])) - slack;
         double const right = Math::max(Math::max(q[0][0], q[1][0]), Math::max(q[2][0], q[3][0])) + slack;
-        int low = 0, high = count;
-        while (low < high)
-        {
-          int const middle = low + (high - low) / 2;
-          if (point(middle)[0] < left)
-            low = middle + 1;
-          else
-            high = middle;
-        }
-        for (int i = low; i < count && point(i)[0] <= right; ++i)
+        int const begin = lowerBound(count, [&](int i) { return point(i)[0] < left; });
+        for (int i = begin; i < count && point(i)[0] <= right; ++i)
           if (holds(q, point(i), scale))
             Kokkos::atomic_fetch_min(&first(i), cell);
       });

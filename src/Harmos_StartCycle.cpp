@@ -144,7 +144,7 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   {
     std::vector<int> const fluid = pressingFluids(scene, laws);
     bool const any = std::find(fluid.begin(), fluid.end(), 1) != fluid.end();
-    s.work.keeps_pressure = any && scene.mesh.geometry == Geometry::Planar; // where tractions act
+    s.work.keeps_pressure = any;
     if (any && scene.constraint.fluid.extent(0) == 0)
       scene.constraint.fluid = deviceCopy("fluid", fluid);
   }

@@ -3,7 +3,7 @@
 #define HARMOS_BOND_BINS_HPP
 
 #include <Harmos_Bonds.hpp>
-#include <Harmos_Kokkos.hpp>
+#include <Harmos_LowerBound.hpp>
 #include <Harmos_WorkArrays.hpp>
 
 namespace Harmos
@@ -27,16 +27,7 @@ struct BondBins
   /// The first place whose bin is not below one.
   KOKKOS_INLINE_FUNCTION int firstOf(long long wanted) const
   {
-    int low = 0, high = static_cast<int>(bin.extent(0));
-    while (low < high)
-    {
-      int const middle = low + (high - low) / 2;
-      if (bin(middle) < wanted)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-    return low;
+    return lowerBound(static_cast<int>(bin.extent(0)), [&](int i) { return bin(i) < wanted; });
   }
 
   /// Number of the nearest bond of two materials (low < high) within reach of a point, ties to the lower number; -1:

@@ -187,8 +187,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   table.outlined = !outline.empty() && options.method == ConstraintMethod::Multipliers;
   table.surfaces = rigidSurfaces(outline, arrays);
   BodyTable const table_n = withBodies(table, bodies_n, arrays);
-  bool const presses =
-      options.fluid.extent(0) > 0 && stress.pressure.extent(0) > 0 && mesh.geometry == Geometry::Planar;
+  bool const presses = options.fluid.extent(0) > 0 && stress.pressure.extent(0) > 0;
   PressureTractions tractions;
   ContactRows const rows =
       findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
@@ -205,8 +204,8 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   Mesh const cells = borrowed(mesh);
   NodeMaterialPairs const dofs = borrowed(dof_nodes);
   bool const is_explicit = options.method == ConstraintMethod::Penalty || options.method == ConstraintMethod::Nitsche;
-  bool const gives_way =
-      !is_explicit && options.method != ConstraintMethod::Merged && !sharesMultipliers(options.placement);
+  bool const gives_way = options.method != ConstraintMethod::Merged && !sharesMultipliers(options.placement);
+  RowScale const scale = is_explicit ? RowScale::None : gives_way ? RowScale::Compliant : RowScale::Sums;
   Motion const before{borrowed(velocity_n), table_n};
   Motion after{borrowed(predicted), table};
   View<double *[2]> pushed = predicted;
@@ -215,7 +214,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   {
     ContactSystem const of_facets =
         buildContactSystem(cells, borrowed(pairs), tractions.rows, dofs, borrowed(conditions), borrowed(dof_mass),
-                           before, after, bodies, dt, false, arrays);
+                           before, after, bodies, dt, RowScale::None, arrays);
     pressure = pressureImpulses(tractions, of_facets, before, cells, borrowed(pairs), stress.pressure, options, kick,
                                 exchange, arrays);
     pushed = arrays.unset<double *[2]>("Harmos::constrain::pushed", predicted.extent(0));
@@ -226,7 +225,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
     after = {borrowed(pushed), withBodies(table, bodies, arrays)};
   }
   ContactSystem const system = buildContactSystem(cells, borrowed(pairs), rows, dofs, borrowed(conditions),
-                                                  borrowed(dof_mass), before, after, bodies, dt, gives_way, arrays);
+                                                  borrowed(dof_mass), before, after, bodies, dt, scale, arrays);
   MultiplierSolution const solution =
       is_explicit
           ? explicitImpulses({mesh, pairs, before, stress.cauchy}, system, rows, dt, kick, options, exchange, arrays)

@@ -275,7 +275,7 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, dou
 ContactSystem buildContactSystem(Mesh const &mesh, CellMaterialPairs const &pairs, ContactRows const &rows,
                                  NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
                                  View<double *> const &dof_mass, Motion const &before, Motion const &predicted,
-                                 std::vector<RigidBody> const &bodies, double dt, bool gives_way,
+                                 std::vector<RigidBody> const &bodies, double dt, RowScale scale,
                                  WorkArrays const &work)
 {
   ContactSystem system;
@@ -287,7 +287,11 @@ ContactSystem buildContactSystem(Mesh const &mesh, CellMaterialPairs const &pair
   gatherDofs(mesh, pairs, predicted.bodies, dof_nodes, conditions, dof_mass, system, work);
   View<int *> const free_number = numberFreeBodies(bodies, system, work);
   fillRows(rows, before, predicted, free_number, dt, system);
+  system.num_multipliers = rows.num_multipliers;
+  if (scale == RowScale::None)
+    return system;
   ContactSystem const s = system;
+  bool const gives_way = scale == RowScale::Compliant;
   double const bonded = gives_way ? bonded_compliance : 0.0, rubbing = gives_way ? rubbing_compliance : 0.0;
   launchFor(
       "Harmos::constrain::rowSums", rows.num_own, KOKKOS_LAMBDA(int i) {
@@ -303,7 +307,6 @@ ContactSystem buildContactSystem(Mesh const &mesh, CellMaterialPairs const &pair
             own.compliance[k] = rubbing * if_alike;
         }
       });
-  system.num_multipliers = rows.num_multipliers;
   return system;
 }
 

@@ -57,6 +57,14 @@ struct SystemRow
   Vector2 arm[2];       // point - centre of the body of side a, of side b
 };
 
+/// What the impulses of a system's rows are found with.
+enum class RowScale
+{
+  None,     // impulses are known: neither row sums nor compliances
+  Sums,     // row sums
+  Compliant // row sums, and compliances of rows that rub and bonded ones
+};
+
 /// The complementarity problem of the contact rows, without a matrix.
 ///
 /// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
@@ -155,11 +163,11 @@ constexpr double bonded_compliance = 1e-9;
 /// \param before v^{n-1/2}; \param predicted v*; \param bodies Rigid bodies with predicted velocities.
 /// \param dof_mass [kg, per metre of depth or per radian]; \param dt [s]
 /// \param mesh, pairs They tell which dof nodes that all materials share a rigid one moves: no impulse does.
-/// \param gives_way Whether rows that rub and bonded ones have their compliances.
+/// \param scale What the rows' impulses are found with.
 ContactSystem buildContactSystem(Mesh const &mesh, CellMaterialPairs const &pairs, ContactRows const &rows,
                                  NodeMaterialPairs const &dof_nodes, BoundaryConditions const &conditions,
                                  View<double *> const &dof_mass, Motion const &before, Motion const &predicted,
-                                 std::vector<RigidBody> const &bodies, double dt, bool gives_way = false,
+                                 std::vector<RigidBody> const &bodies, double dt, RowScale scale = RowScale::Sums,
                                  WorkArrays const &work = {});
 
 /// Rows with restitution that bear though they were not about to touch, since what others' impulses move strikes there,

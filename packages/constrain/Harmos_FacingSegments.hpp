@@ -87,6 +87,33 @@ struct SampleGatherer
   }
 };
 
+/// Length of the segments of two materials, both sides together, that lie on each other within two cells of a segment's
+/// point. [cells]
+KOKKOS_INLINE_FUNCTION double touchingLength(FacingSegments const &facing, InterfaceSegment const &s, int other)
+{
+  constexpr double reach = 2.0, touching = 1e-3; // [cells]
+  Vector2 const box{reach * s.cell_size, reach * s.cell_size};
+  Pack const a = s.material, b = other, least = touching * s.cell_size, zero = 0.0;
+  Pack sum = 0.0;
+  facing.bins.forEachRun(s.point - box, s.point + box,
+                         [&](int begin, int end)
+                         {
+                           for (int i = begin; i < end; i += pack_width)
+                           {
+                             Pack const x = loadPack(&facing.column(FacingX, i)) - Pack(s.point[0]);
+                             Pack const y = loadPack(&facing.column(FacingY, i)) - Pack(s.point[1]);
+                             Pack const of = loadPack(&facing.column(FacingMaterial, i));
+                             Pack const faced = loadPack(&facing.column(FacedMaterial, i));
+                             auto const theirs = either(both(of == a, faced == b), both(of == b, faced == a));
+                             auto const near =
+                                 both(x * x + y * y <= Pack(box[0] * box[0]), laneNumbers() < Pack(end - i));
+                             auto const lies = both(theirs, loadPack(&facing.column(FacingGap, i)) <= least);
+                             sum += select(both(near, lies), loadPack(&facing.column(FacingLength, i)), zero);
+                           }
+                         });
+  return laneSum(sum) / s.cell_size;
+}
+
 /// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
 /// `target` is what the ray of s (a segment or a part of one) meets, a segment of another material (no wall).
 /// \param keeps_faces As of fitNormal.

@@ -45,7 +45,8 @@ struct InterfaceSegments
   View<int *> cell;                 // ascending; num_cells, and some room
   View<int *> first;                // num_cells: first segment of each
 
-  /// First segment of a cell; `count` where it was not looked at. Of a cell without segments: of another one.
+  /// First segment of a cell; `count` where it was not looked at. Of a cell without segments: of another one. Every
+  /// ray from a face asks: a search without branches.
   KOKKOS_INLINE_FUNCTION int firstOf(int wanted) const
   {
     int at = 0;

@@ -49,21 +49,42 @@ struct TractionFinder
            Math::fabs(a.length - b.length) <= least;
   }
 
-  /// Normal of the one row, from pressed segment i on, that acts over just this segment; zero without one.
-  KOKKOS_INLINE_FUNCTION Vector2 rowNormal(int i) const
+  /// The segment whose one row acts over just a pressed facet: the facet itself, or what faces it along the same line;
+  /// -1 without one.
+  KOKKOS_INLINE_FUNCTION int carrierOf(int facet) const
   {
-    int const facing = builder.hit(i).segment;
-    if (planned(i).count == 1)
-      return planned(i).normal[0];
-    return planned(i).count == 0 && planned(facing).count == 1 && areOne(i, facing) ? -planned(facing).normal[0]
-                                                                                    : Vector2{0.0, 0.0};
+    int const facing = builder.hit(facet).segment;
+    if (planned(facet).count == 1)
+      return facet;
+    return planned(facet).count == 0 && planned(facing).count == 1 && areOne(facet, facing) ? facing : -1;
+  }
+
+  /// Normal, away from a pressed facet, of the row that carries it; zero without one.
+  KOKKOS_INLINE_FUNCTION Vector2 rowNormal(int facet) const
+  {
+    int const carrier = carrierOf(facet);
+    if (carrier < 0)
+      return {0.0, 0.0};
+    return carrier == facet ? planned(facet).normal[0] : -planned(carrier).normal[0];
+  }
+
+  /// Whether a cell has a corner on the axis of an axisymmetric mesh.
+  KOKKOS_INLINE_FUNCTION bool isOnAxis(int cell) const
+  {
+    constexpr double round_off = 1e-9; // [cells]
+    if (builder.mesh.geometry == Geometry::Planar)
+      return false;
+    Quadrilateral const q = cellQuadrilateral(builder.mesh, cell);
+    double const least = Math::min(Math::min(q[0][0], q[1][0]), Math::min(q[2][0], q[3][0]));
+    return least <= round_off * Math::sqrt(builder.mesh.cell_area(cell));
   }
 
   /// Number k of segment i: 0 of its own pressure, 1 and 2 of its rows.
   KOKKOS_INLINE_FUNCTION PlannedTraction traction(int i, int k) const
   {
     constexpr double round_off = 1e-9; // of normals
-    if (builder.mesh.cell_depth(builder.segment(i).cell) != 0)
+    int const cell = builder.segment(i).cell;
+    if (builder.mesh.cell_depth(cell) != 0 || isOnAxis(cell))
       return {0.0, 0.0};
     if (k > 0)
       return {k <= planned(i).count && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
@@ -96,11 +117,10 @@ private:
   KOKKOS_INLINE_FUNCTION bool isUnmatched(int i, int half) const
   {
     if (isPressed(i))
-      return planned(i).count == 2;
+      return carrierOf(i) != i;
     int const facing = planned(i).hit[half].segment;
     return isPressed(facing) && builder.segment(builder.hit(facing).segment).material == builder.segment(i).material &&
-           !(planned(facing).count == 0 && planned(i).count == 1 && builder.hit(facing).segment == i &&
-             areOne(facing, i));
+           carrierOf(facing) != i;
   }
 };
 
@@ -109,7 +129,7 @@ struct FacetPressure
 {
   /// Speed of the sides against each other, over sqrt(p / density), from which on the tractions fade; at twice that
   /// they are none.
-  static constexpr double most_slip = 0.5;
+  static constexpr double most_slip = 0.1;
 
   Mesh mesh;
   CellMaterialPairs pairs;

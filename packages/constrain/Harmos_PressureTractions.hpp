@@ -30,8 +30,8 @@ struct PressureTractions
   View<double *[2]> along; // num_own: traction per pressure [1], along the row's normal and across it
 };
 
-/// The tractions of the segments of owned cells. Of two fluids the slave's facets count; bonded pairs have none. The
-/// caller sums num_multipliers and exchanges the rows.
+/// The tractions of the segments of owned cells. Of two fluids the slave's facets count; bonded pairs, and cells with a
+/// corner on an axis, have none. The caller sums num_multipliers and exchanges the rows.
 /// \param planned The rows of each segment.
 PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
                                         WorkArrays const &work);
@@ -49,7 +49,7 @@ struct PressureImpulses
 /// p is the mean over the fluid's part of the cell and of those around it, by volume, each at most a tenth of the
 /// cell's own off that. With the cell's own the tractions would take away all that resists a light sliver's sliding
 /// into a corner, and noise grew (e-fold in 0.8 ms beside a square of 0.7 m in air). Without the viscosity, which
-/// follows the velocity that the tractions make. They do work on what slides: where the sides pass each other by 0.5
+/// follows the velocity that the tractions make. They do work on what slides: where the sides pass each other by 0.1
 /// sqrt(p / density) they fade, at twice that they are none. Between two fluids p is the mean weighted by the other's
 /// impedance: the softer decides.
 /// \param system Of tractions.rows, at v*. \param before v^{n-1/2}

@@ -5,6 +5,7 @@
 #include <Harmos_BentEdge.hpp>
 #include <Harmos_BondBins.hpp>
 #include <Harmos_ContactRows.hpp>
+#include <Harmos_CurvedGap.hpp>
 #include <Harmos_FacingSegments.hpp>
 #include <Harmos_Fullness.hpp>
 #include <Harmos_SegmentBearing.hpp>
@@ -205,6 +206,20 @@ struct RowBuilder
     return false;
   }
 
+  /// What a segment, or a part of one, meets along its ray; where it is one of few short pieces that lie on each other,
+  /// as far away as both sides' arcs are: at contact's end, or before it begins.
+  KOKKOS_INLINE_FUNCTION RayHit alongArcs(InterfaceSegment const &a, RayHit const &to, Vector2 const &normal) const
+  {
+    constexpr double touching = 1e-3, longest = 0.5, few = 1.5; // [cells]
+    InterfaceSegment const &b = segment(to.segment);
+    double const h = a.cell_size;
+    if (to.gap > touching * h || a.parts * a.length > longest * h || b.material < 0 || bearing.isPressed(a) ||
+        bearing.isPressed(b) || options.interaction(a.material, b.material).kind == Interaction::Bonded ||
+        touchingLength(facing, a, b.material) > few)
+      return to;
+    return {to.segment, Math::max(to.gap, h * curvedGap(bins, a, b.material, normal)), to.cosine};
+  }
+
   /// A half of a segment, with its Gauss point of the whole.
   static KOKKOS_INLINE_FUNCTION InterfaceSegment halfOf(InterfaceSegment const &whole, int half)
   {
@@ -229,6 +244,9 @@ struct RowBuilder
     rows.count = 1;
     if (endGoesThrough(segment(i), hit(i)))
       planHalves(i, rows);
+    for (int half = 0; half < rows.count; ++half)
+      rows.hit[half] =
+          alongArcs(rows.count == 2 ? halfOf(segment(i), half) : segment(i), rows.hit[half], rows.normal[half]);
   }
 
   /// Two rows in the place of one, where both halves carry one.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactRows.hpp>
 #include <Harmos_LocalCell.hpp>
+#include <Harmos_LowerBound.hpp>
 
 #include <stdexcept>
 
@@ -100,16 +101,7 @@ KOKKOS_INLINE_FUNCTION bool unpackRow(Mesh const &mesh, CellMaterialPairs const 
 /// The first row whose slave cell is not below a cell.
 KOKKOS_INLINE_FUNCTION int firstRowOf(View<ContactRow *> const &row, int count, int cell)
 {
-  int low = 0, high = count;
-  while (low < high)
-  {
-    int const middle = low + (high - low) / 2;
-    if (row(middle).cell_a < cell)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
+  return lowerBound(count, [&](int i) { return row(i).cell_a < cell; });
 }
 
 /// Sums of counts: entries + 1.

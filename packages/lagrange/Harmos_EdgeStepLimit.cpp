@@ -4,6 +4,7 @@
 #include <Harmos_JoinReducer.hpp>
 #include <detail/Harmos_LargestRate.hpp>
 #include <detail/Harmos_PairAccess.hpp>
+#include <detail/Harmos_Patch.hpp>
 #include <detail/Harmos_RingQuadrature.hpp>
 
 #include <limits>
@@ -13,12 +14,8 @@ namespace Harmos
 namespace
 {
 
-/// Gradients of a pair at the corners of its cell; hoop: N_I / r, planar zero. [1/length]
-struct CornerGradients
-{
-  Vector2 of[4];
-  double hoop[4];
-};
+using detail::CornerGradients;
+using detail::Patch;
 
 /// A symmetric matrix sum_I w_I B_I B_I^T.
 struct GradientSquare
@@ -76,100 +73,8 @@ struct Stiffness
   double speed_squared, shear;
 };
 
-/// A pair (the first of them) and those around it that share its dof nodes, and the nodes that move them.
-struct Patch
-{
-  static constexpr int most_pairs = 24, most_nodes = 36;
-
-  int num_pairs = 0, num_nodes = 0;
-  double modulus[most_pairs]; // mass times c^2 over that of the first pair [mass]
-  double shear[most_pairs];   // G / (rho c^2)
-  CornerGradients gradient[most_pairs];
-  int node_of[most_pairs][4];
-  int dof[most_nodes];
-  double node_mass[most_nodes];
-  NodeCondition condition[most_nodes]; // values play no part
-
-  /// Of a dof node; most_nodes: no room.
-  KOKKOS_INLINE_FUNCTION int local(int d)
-  {
-    for (int i = 0; i < num_nodes; ++i)
-      if (dof[i] == d)
-        return i;
-    if (num_nodes == most_nodes)
-      return most_nodes;
-    dof[num_nodes] = d;
-    return num_nodes++;
-  }
-
-  /// a = M^-1 K u for unit c of the first pair, node conditions held: stress over rho c^2 is 1, 1 - 2 g and g times
-  /// axial, lateral and shear strain. [1/length^2]
-  KOKKOS_INLINE_FUNCTION void apply(Vector2 const u[most_nodes], Vector2 a[most_nodes]) const
-  {
-    for (int i = 0; i < num_nodes; ++i)
-      a[i] = {0.0, 0.0};
-    for (int c = 0; c < num_pairs; ++c)
-    {
-      double xx = 0.0, yy = 0.0, xy = 0.0, around = 0.0;
-      for (int k = 0; k < 4; ++k)
-      {
-        Vector2 const &b = gradient[c].of[k], &v = u[node_of[c][k]];
-        xx += b[0] * v[0];
-        yy += b[1] * v[1];
-        xy += b[1] * v[0] + b[0] * v[1];
-        around += gradient[c].hoop[k] * v[0];
-      }
-      double const twice = 2.0 * shear[c], mean = (1.0 - twice) * (xx + yy + around);
-      double const sxx = modulus[c] * (mean + twice * xx), syy = modulus[c] * (mean + twice * yy),
-                   sxy = modulus[c] * shear[c] * xy, hoop = modulus[c] * (mean + twice * around);
-      for (int k = 0; k < 4; ++k)
-      {
-        Vector2 const &b = gradient[c].of[k];
-        a[node_of[c][k]] += Vector2{sxx * b[0] + sxy * b[1] + hoop * gradient[c].hoop[k], sxy * b[0] + syy * b[1]};
-      }
-    }
-    for (int i = 0; i < num_nodes; ++i)
-      a[i] = (1.0 / node_mass[i]) * condition[i].project(a[i]);
-  }
-
-  KOKKOS_INLINE_FUNCTION double energy(Vector2 const u[most_nodes]) const
-  {
-    double sum = 0.0;
-    for (int i = 0; i < num_nodes; ++i)
-      sum += node_mass[i] * dot(u[i], u[i]);
-    return sum;
-  }
-
-  /// omega^2 / (4 c^2) of its largest frequency, by power iteration from the strain that the first pair resists most.
-  KOKKOS_INLINE_FUNCTION double largestSquare() const
-  {
-    constexpr int turns = 10;
-    Vector2 u[most_nodes], a[most_nodes];
-    for (int i = 0; i < num_nodes; ++i)
-      u[i] = {0.0, 0.0};
-    for (int k = 0; k < 4; ++k)
-    {
-      int const i = node_of[0][k];
-      u[i] = (1.0 / node_mass[i]) * condition[i].project(gradient[0].of[k] + Vector2{gradient[0].hoop[k], 0.0});
-    }
-    double square = 0.0;
-    for (int turn = 0; turn < turns; ++turn)
-    {
-      double const before = energy(u);
-      if (!(before > 0.0))
-        return 0.0;
-      apply(u, a);
-      square = Math::sqrt(energy(a) / before);
-      double const scale = 1.0 / Math::sqrt(before);
-      for (int i = 0; i < num_nodes; ++i)
-        u[i] = scale * a[i];
-    }
-    return 0.25 * square;
-  }
-};
-
 /// Part of a square by which a patch may miss the scheme's, where edges are free.
-constexpr double most_missed = 0.1;
+constexpr double most_missed = 0.05;
 
 /// A bound of a frequency's square, and what of it is owed to motions of two directions at free edges. [1/length^2]
 struct BoundedSquare
@@ -357,28 +262,40 @@ struct EdgeStepFunctor
     return true;
   }
 
-  /// The patch of a pair; false: it has no room.
-  KOKKOS_INLINE_FUNCTION bool gather(int cell, int pair, Patch &patch) const
+  /// Adds the pairs that share dof nodes with one of the list; false: it has no room.
+  KOKKOS_INLINE_FUNCTION bool enlistAround(int member, int cells[Patch::most_pairs], int listed[Patch::most_pairs],
+                                           int &count) const
   {
-    int cells[Patch::most_pairs] = {cell}, listed[Patch::most_pairs] = {pair};
-    patch.num_pairs = 1;
     for (int k = 0; k < 4; ++k)
     {
-      int const node = mesh.cell_node(cell, k), dof = pairs.dof_node(pair, k);
+      int const node = mesh.cell_node(cells[member], k), dof = pairs.dof_node(listed[member], k);
       for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
       {
         int const around = mesh.node_cell.item(i) / 4, there = mesh.node_cell.item(i) % 4;
         for (int p = pairs.offset(around); p < pairs.offset(around + 1); ++p)
-          if (pairs.dof_node(p, there) == dof && deforms(p) && !enlist(around, p, cells, listed, patch.num_pairs))
+          if (pairs.dof_node(p, there) == dof && deforms(p) && !enlist(around, p, cells, listed, count))
             return false;
       }
     }
+    return true;
+  }
+
+  /// The patch of a pair; false: it has no room.
+  KOKKOS_INLINE_FUNCTION bool gather(int cell, int pair, Patch &patch) const
+  {
+    constexpr int rings = 2;
+    int cells[Patch::most_pairs] = {cell}, listed[Patch::most_pairs] = {pair};
+    patch.num_pairs = 1;
+    for (int ring = 0, member = 0; ring < rings; ++ring)
+      for (int const end = patch.num_pairs; member < end; ++member)
+        if (!enlistAround(member, cells, listed, patch.num_pairs))
+          return false;
     double const own = stiffnessOf(pair).speed_squared;
     for (int c = 0; c < patch.num_pairs; ++c)
     {
       int const p = listed[c];
       Stiffness const stiffness = stiffnessOf(p);
-      patch.modulus[c] = record(p, Mass) * stiffness.speed_squared / own;
+      patch.modulus[c] = record(p, Mass) * Math::min(1.0, stiffness.speed_squared / own);
       patch.shear[c] = stiffness.shear;
       patch.gradient[c] = pairGradients(cells[c], p);
       for (int k = 0; k < 4; ++k)
@@ -433,7 +350,9 @@ struct EdgeStepFunctor
     Patch patch;
     if (!patches || bounded * dt <= 1.0 || !gather(cell, pair, patch))
       return bounded;
-    double const found = patch.largestSquare() + Math::min(bound.at_free_edges, most_missed * of_cell);
+    // A patch may hold pairs that ask for more: this one asks for no more than its bound.
+    double const found =
+        Math::min(patch.largestSquare(), bound.whole) + Math::min(bound.at_free_edges, most_missed * of_cell);
     return rateAt(Math::max(of_cell, found));
   }
 

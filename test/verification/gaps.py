@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact begins in the step that closes a gap, none earlier: several gaps at once, a corner above cells, faces and nodes, a bar that strikes the same body again."""
-from math import cos, hypot, radians, sin, sqrt
+from math import cos, degrees, hypot, pi, radians, sin, sqrt
+from random import Random
 
 from harness import ROOT, check, clean, harmos, read_columns, run
 
@@ -108,6 +109,49 @@ def test_a_disc_that_passes_a_corner_feels_nothing():
             check("momentum that goes across", across, 1e-12)
             assert rows == 0
             clean(r)
+
+
+def round_pair(kind, random, gap, approach):
+    """A disc `gap` cells from a disc, a turned square's face or its corner, of four to eight cells' radius, at a random place; moves at 20 m/s along the line of the two, or across it. Returns the run."""
+    h, side, far = 0.025, 0.1, 0.12
+    radius, turn, away = random.uniform(4.0, 8.0) * h, random.uniform(0.0, 2.0 * pi), random.uniform(0.0, 2.0 * pi)
+    u = (cos(turn), sin(turn))
+    n = (cos(away), sin(away)) if kind == "disc" else (-u[1], u[0])
+    x, y = (0.5 + random.uniform(0.0, 1.0) * h - far * n[k] for k in (0, 1))
+    if kind == "disc":
+        other = random.uniform(4.0, 8.0) * h
+        one, foot = f"shape: disc, center: [{x!r}, {y!r}], radius: {other!r}", (x + other * n[0], y + other * n[1])
+    else:
+        one = f"shape: rectangle, center: [{x!r}, {y!r}], size: [{2 * side}, {2 * side}], angle: {degrees(turn)!r}"
+        along = side if kind == "corner" else random.uniform(-0.6, 0.6) * side
+        foot = (x + along * u[0] + side * n[0], y + along * u[1] + side * n[1])
+        if kind == "corner":
+            lean = radians(random.uniform(10.0, 80.0))
+            n = (cos(lean) * u[0] + sin(lean) * n[0], cos(lean) * u[1] + sin(lean) * n[1])
+    centre = [foot[k] + (radius + gap * h) * n[k] for k in (0, 1)]
+    velocity = [-20.0 * n[0], -20.0 * n[1]] if approach else [-20.0 * n[1], 20.0 * n[0]]
+    return harmos(DECKS / "gaps.yaml", {
+        "mesh": "{x: {from: -0.1, to: 1.1, cells: 48}, y: {from: -0.1, to: 1.1, cells: 48}}", "boundaries/bottom": "{type: outflow}", "boundaries/top": "{type: outflow}",
+        "output/fields": "{at_end: false}", "run": f"{{end_time: {4.0 * gap * h / 20.0 if approach else 3e-6!r}}}",
+        "bodies": f"{{one: {{material: steel, {one}}}, two: {{material: steel, shape: disc, center: {centre!r}, radius: {radius!r}, velocity: {velocity!r}}}}}"})
+
+
+# With the gaps of chords alone 1, 3, 6 and 7 of these discs beside discs, and up to 4 beside faces, were felt at 0.02, 0.01, 0.005 and 0.002 cells.
+def test_what_is_round_feels_nothing_before_it_touches():
+    random = Random(7)
+    for kind in ("disc", "face", "corner"):
+        for gap in (0.02, 0.005) if kind == "corner" else (0.02, 0.005, 0.002):
+            felt = [len(read_columns(round_pair(kind, random, gap, False).directory / "contact.csv")["time"]) for _ in range(8)]
+            print(f"  a disc past a {kind}, {gap} cells: rows loaded {felt}")
+            assert not any(felt), felt
+
+
+# With the gaps of chords up to 0.02 cells early. Rows stand at middles of segments: up to 1 / (8 R) late.
+def test_what_is_round_is_felt_when_it_touches():
+    random, gap = Random(7), 0.02
+    for kind in ("disc", "face"):
+        for _ in range(8):
+            begins_in_time(round_pair(kind, random, gap, True), ("one", "two"), lambda t: gap - 20.0 * t / 0.025, f"a disc on a {kind}", early=1e-3, late=0.05)
 
 
 def test_a_bar_strikes_the_same_body_again_after_it_has_parted():

@@ -165,6 +165,29 @@ def test_gas_rests_at_the_corners_of_solids():
         clean(r)
 
 
+def test_gas_rests_beside_solids_about_an_axis():
+    # Without tractions up to 2e-4; beside the axis there are none, so that no sphere is among them.
+    for shape in ("rectangle, center: [0.413, 0.213], size: [0.4, 0.4], angle: 20.0", "disc, radius: 0.25, center: [0.413, 0.213]",
+                  "polygon, points: [0.0, -0.2, 0.4, 0.31, 0.0, 0.31]"):
+        r = harmos(ROOT / "test/verification/decks/gas_in_a_box.yaml", {
+            "geometry": "axisymmetric", "boundaries": "{}", "mesh/x": "{from: 0.0, to: 0.8, cells: 20}", "mesh/y/cells": 40, "run/end_time": 4e-3,
+            "bodies": "{gas: {material: air, shape: rectangle, center: [0.2, 0.2], size: [1.6, 1.6], pressure: 1.0e5}, "
+                      f"box: {{material: steel, shape: {shape}, pressure: 1.0e5, cut: true}}}}"})
+        check(f"{shape}: kinetic energy over the gas's internal one", max(r["kinetic_energy"]) / r.first("gas.internal_energy"), 1e-15)
+        clean(r)
+
+
+def test_gas_that_is_squeezed_to_nothing_gains_no_energy():
+    # Remnants beside the axis slide along the liner at a speed that their own heat allows. With tractions up to slips of sqrt(p / density)
+    # contact gave them 1e12 times the energy of the scene (planar).
+    for geometry in "planar", "axisymmetric":
+        r = harmos(ROOT / "test/verification/decks/collapse.yaml", {"geometry": geometry})
+        loss = r["contact_loss"]
+        given = sum(max(0.0, before - after) for before, after in zip(loss, loss[1:]))
+        check(f"{geometry}: energy that contact gave over that of the scene", given / r.first("internal_energy"), 1e-3)
+        clean(r)
+
+
 def test_a_box_that_flies_keeps_its_gas():
     # 0.50 and 1.24 m2 of gas in the end before rows beside fluids left nothing of their pressure, of 0.15.
     for cells in 16, 32:

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CURVED_GAP_HPP
+#define HARMOS_CURVED_GAP_HPP
+
+#include <Harmos_NormalFit.hpp>
+#include <Harmos_SegmentBins.hpp>
+
+namespace Harmos
+{
+
+/// The facets of one side in one cell, as sums by length in the frame (t, n) of a point; lengths in cells.
+struct CellFacets
+{
+  int cell;
+  double length, t, y, tt, ty;
+};
+
+/// One side's facets around a point, cell by cell.
+struct SideFacets
+{
+  static constexpr int most_cells = 16;
+  int count = 0;
+  bool overflown = false;
+  CellFacets of_cell[most_cells];
+
+  KOKKOS_INLINE_FUNCTION void add(int cell, double length, double t, double y, double slope)
+  {
+    int k = 0;
+    while (k < count && of_cell[k].cell != cell)
+      ++k;
+    if (k == most_cells)
+    {
+      overflown = true;
+      return;
+    }
+    if (k == count)
+      of_cell[count++] = {cell, 0.0, 0.0, 0.0, 0.0, 0.0};
+    CellFacets &c = of_cell[k];
+    double const spread = length * length / 12.0;
+    c.length += length;
+    c.t += length * t;
+    c.y += length * y;
+    c.tt += length * (t * t + spread);
+    c.ty += length * (t * y + slope * spread);
+  }
+};
+
+/// An arc through one side's facets: y = alpha + beta t + gamma t^2 / 2 + gamma^3 t^4 / 8.
+struct SideArc
+{
+  double height, curvature; // alpha, gamma
+  bool smooth;              // the facets lie on it
+
+  static constexpr double reach = 2.0; // along the side; cells beyond have no weight [cells]
+};
+
+/// Weighted least squares over the cells c of a side, with the means t_c, y_c, s_c = mean t^2 - t_c^2 and the mean
+/// slope of their facets,
+///
+///   sum_c w_c (r_c^2 + 0.1 s_c (slope_c - beta - gamma t_c)^2),
+///   r_c = y_c - alpha - beta t_c - gamma/2 (t_c^2 + s_c),
+///
+/// once, and again less what the fourth order of the first fit's arc adds. r_c = 0 is the same volume below the arc as
+/// below the cell's facets: where those of two bodies meet in a cell they hold each other's volumes in the sum of the
+/// pieces alone.
+KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
+{
+  constexpr double least_length = 1.2, most_miss = 5e-3; // [cells]
+  constexpr int least_cells = 3;
+  ParabolaFit fit;
+  double length = 0.0, miss = 0.0;
+  int taken = 0;
+  auto const forEachCell = [&](auto const &visit)
+  {
+    for (int k = 0; k < side.count; ++k)
+    {
+      CellFacets const &c = side.of_cell[k];
+      double const t = c.t / c.length, y = c.y / c.length, spread = c.tt / c.length - t * t;
+      double const near = 1.0 - t * t / (SideArc::reach * SideArc::reach), cube = fit.gamma * fit.gamma * fit.gamma;
+      if (near > 0.0 && spread > 0.0)
+        visit(c.length * near * near, t, spread, y - 0.125 * cube * t * t * (t * t + 6.0 * spread),
+              (c.ty / c.length - t * y) / spread - 0.5 * cube * t * (t * t + 3.0 * spread));
+    }
+  };
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    FitMoments m = {};
+    taken = 0;
+    forEachCell(
+        [&](double w, double t, double spread, double y, double slope)
+        {
+          double const q = 0.5 * (t * t + spread), u = 0.1 * w * spread, of[4] = {1.0, t, q, y};
+          for (int i = 0; i < 4; ++i)
+            m.of_side[0][i] += w * of[i];
+          m.tt += w * t * t + u;
+          m.tq += w * t * q + u * t;
+          m.qq += w * q * q + u * t * t;
+          m.ty += w * t * y + u * slope;
+          m.qy += w * q * y + u * t * slope;
+          ++taken;
+        });
+    length = m.of_side[0][0];
+    if (side.overflown || taken < least_cells || length < least_length)
+      return {0.0, 0.0, false};
+    fit = fitParabola(m, 0.0);
+  }
+  forEachCell(
+      [&](double w, double t, double spread, double y, double)
+      {
+        double const r = y - fit.alpha[0] - fit.beta * t - 0.5 * fit.gamma * (t * t + spread);
+        miss += w * r * r;
+      });
+  return {fit.alpha[0], fit.gamma, miss <= most_miss * most_miss * length};
+}
+
+/// \brief Void between two smooth sides that curve away from each other, at a point where their facets meet. [cells]
+///
+/// The facet of a curved side is a chord, whose ends lie outside of the arc by L^2 / (12 R): two bodies share pieces of
+/// them while there is still void between their arcs. The arcs of both sides (fitSide) tell how much: to 1e-3
+/// cells for discs of four and five cells' radius.
+///
+/// \param at Segment whose point it is, of the side that n leaves.
+/// \param other Material of the other side.
+/// \param n Unit normal of contact there.
+/// \return Zero where a side is not smooth, and where the ends of chords cannot explain that they meet.
+KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegment const &at, int other,
+                                        Vector2 const &n)
+{
+  constexpr double longest_squared = 2.0;                          // chord of a cell
+  constexpr double apart = 1.0;                                    // most height of a facet [cells]
+  double const h = at.cell_size, box = (SideArc::reach + 1.0) * h; // of midpoints
+  SideFacets side[2];
+  bins.forEach(at.point - Vector2{box, box}, at.point + Vector2{box, box},
+               [&](int, BinnedSegment const &s)
+               {
+                 if (s.material != at.material && s.material != other)
+                   return;
+                 bool const own = s.material == at.material;
+                 Vector2 const outward = own ? s.normal : -s.normal, d = (1.0 / h) * (s.midpoint - at.point);
+                 double const along = dot(outward, n), height = dot(d, n);
+                 if (along < fit_least_cosine || Math::fabs(height) > apart)
+                   return;
+                 side[own ? 0 : 1].add(s.cell, along * s.length / h, cross(d, n), height, cross(n, outward) / along);
+               });
+  SideArc const a = fitSide(side[0]), b = fitSide(side[1]);
+  double const gap = b.height - a.height, opening = b.curvature - a.curvature;
+  return a.smooth && b.smooth && gap > 0.0 && gap <= opening * longest_squared / 12.0 ? gap : 0.0;
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_LAGRANGE_DETAIL_PATCH_HPP
+#define HARMOS_LAGRANGE_DETAIL_PATCH_HPP
+
+#include <Harmos_BoundaryConditions.hpp>
+#include <Harmos_Vector.hpp>
+
+namespace Harmos
+{
+namespace detail
+{
+
+/// Gradients of a pair at the corners of its cell; hoop: N_I / r, planar zero. [1/length]
+struct CornerGradients
+{
+  Vector2 of[4];
+  double hoop[4];
+};
+
+/// A pair (the first of them), those around it that share its dof nodes, those around these, and the nodes that move
+/// them.
+struct Patch
+{
+  static constexpr int most_pairs = 48, most_nodes = 56;
+
+  int num_pairs = 0, num_nodes = 0;
+  double modulus[most_pairs]; // mass times c^2 over that of the first pair, at most one: stiffer ones ask for steps of
+                              // their own [mass]
+  double shear[most_pairs];   // G / (rho c^2)
+  CornerGradients gradient[most_pairs];
+  int node_of[most_pairs][4];
+  int dof[most_nodes];
+  double node_mass[most_nodes];
+  NodeCondition condition[most_nodes]; // values play no part
+
+  /// Of a dof node; most_nodes: no room.
+  KOKKOS_INLINE_FUNCTION int local(int d)
+  {
+    for (int i = 0; i < num_nodes; ++i)
+      if (dof[i] == d)
+        return i;
+    if (num_nodes == most_nodes)
+      return most_nodes;
+    dof[num_nodes] = d;
+    return num_nodes++;
+  }
+
+  /// a = M^-1 K u for unit c of the first pair, node conditions held: stress over rho c^2 is 1, 1 - 2 g and g times
+  /// axial, lateral and shear strain. [1/length^2]
+  KOKKOS_INLINE_FUNCTION void apply(Vector2 const u[most_nodes], Vector2 a[most_nodes]) const
+  {
+    for (int i = 0; i < num_nodes; ++i)
+      a[i] = {0.0, 0.0};
+    for (int c = 0; c < num_pairs; ++c)
+    {
+      double xx = 0.0, yy = 0.0, xy = 0.0, around = 0.0;
+      for (int k = 0; k < 4; ++k)
+      {
+        Vector2 const &b = gradient[c].of[k], &v = u[node_of[c][k]];
+        xx += b[0] * v[0];
+        yy += b[1] * v[1];
+        xy += b[1] * v[0] + b[0] * v[1];
+        around += gradient[c].hoop[k] * v[0];
+      }
+      double const twice = 2.0 * shear[c], mean = (1.0 - twice) * (xx + yy + around);
+      double const sxx = modulus[c] * (mean + twice * xx), syy = modulus[c] * (mean + twice * yy),
+                   sxy = modulus[c] * shear[c] * xy, hoop = modulus[c] * (mean + twice * around);
+      for (int k = 0; k < 4; ++k)
+      {
+        Vector2 const &b = gradient[c].of[k];
+        a[node_of[c][k]] += Vector2{sxx * b[0] + sxy * b[1] + hoop * gradient[c].hoop[k], sxy * b[0] + syy * b[1]};
+      }
+    }
+    for (int i = 0; i < num_nodes; ++i)
+      a[i] = (1.0 / node_mass[i]) * condition[i].project(a[i]);
+  }
+
+  KOKKOS_INLINE_FUNCTION double energy(Vector2 const u[most_nodes]) const
+  {
+    double sum = 0.0;
+    for (int i = 0; i < num_nodes; ++i)
+      sum += node_mass[i] * dot(u[i], u[i]);
+    return sum;
+  }
+
+  /// omega^2 / (4 c^2) of its largest frequency, by power iteration from the strain that the first pair resists most.
+  KOKKOS_INLINE_FUNCTION double largestSquare() const
+  {
+    constexpr int turns = 10;
+    Vector2 u[most_nodes], a[most_nodes];
+    for (int i = 0; i < num_nodes; ++i)
+      u[i] = {0.0, 0.0};
+    for (int k = 0; k < 4; ++k)
+    {
+      int const i = node_of[0][k];
+      u[i] = (1.0 / node_mass[i]) * condition[i].project(gradient[0].of[k] + Vector2{gradient[0].hoop[k], 0.0});
+    }
+    double square = 0.0;
+    for (int turn = 0; turn < turns; ++turn)
+    {
+      double const before = energy(u);
+      if (!(before > 0.0))
+        return 0.0;
+      apply(u, a);
+      square = Math::sqrt(energy(a) / before);
+      double const scale = 1.0 / Math::sqrt(before);
+      for (int i = 0; i < num_nodes; ++i)
+        u[i] = scale * a[i];
+    }
+    return 0.25 * square;
+  }
+};
+
+} // namespace detail
+} // namespace Harmos
+
+#endif
