@@ -52,6 +52,8 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 /// What comes slower keeps one, which is best conditioned: with two before any void the loaded length of Hertz's
 /// contact was off by half.
 ///
+/// Of short pieces of facets that meet where both sides are smooth arcs the gap is that of the arcs (curvedGap).
+///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
 /// on segments shorter than shortest_segment (but where short_segments keeps them), on cell faces exposed by less than
 /// exposed_face, between driven bodies, between sides that share their dof nodes, and where the segment's own normal is

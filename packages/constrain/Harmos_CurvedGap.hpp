@@ -54,15 +54,15 @@ struct SideArc
   static constexpr double reach = 2.0; // along the side; cells beyond have no weight [cells]
 };
 
-/// Weighted least squares over the cells c of a side, with the means t_c, y_c, s_c = mean t^2 - t_c^2 and the mean
-/// slope of their facets,
+/// Weighted least squares over the cells c of a side, with the means t_c, y_c, s_c = mean t^2 - t_c^2 of their facets
+/// and the slope of the line through them,
 ///
 ///   sum_c w_c (r_c^2 + 0.1 s_c (slope_c - beta - gamma t_c)^2),
 ///   r_c = y_c - alpha - beta t_c - gamma/2 (t_c^2 + s_c),
 ///
 /// once, and again less what the fourth order of the first fit's arc adds. r_c = 0 is the same volume below the arc as
-/// below the cell's facets: where those of two bodies meet in a cell they hold each other's volumes in the sum of the
-/// pieces alone.
+/// below the cell's facets. Where two bodies meet in a cell a piece of facet does not hold its body's volume, all
+/// pieces of the cell together do: so cells are fitted. At least three of them, with 1.2 cells of weighted length.
 KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
 {
   constexpr double least_length = 1.2, most_miss = 5e-3; // [cells]
@@ -137,10 +137,10 @@ KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegmen
                    return;
                  bool const own = s.material == at.material;
                  Vector2 const outward = own ? s.normal : -s.normal, d = (1.0 / h) * (s.midpoint - at.point);
-                 double const along = dot(outward, n), height = dot(d, n);
-                 if (along < fit_least_cosine || Math::fabs(height) > apart)
+                 double const along = dot(outward, n), height = dot(d, n), t = cross(d, n);
+                 if (along < fit_least_cosine || Math::fabs(height) > apart || Math::fabs(t) > SideArc::reach + 1.0)
                    return;
-                 side[own ? 0 : 1].add(s.cell, along * s.length / h, cross(d, n), height, cross(n, outward) / along);
+                 side[own ? 0 : 1].add(s.cell, along * s.length / h, t, height, cross(n, outward) / along);
                });
   SideArc const a = fitSide(side[0]), b = fitSide(side[1]);
   double const gap = b.height - a.height, opening = b.curvature - a.curvature;

@@ -79,6 +79,11 @@ struct TractionFinder
     return least <= round_off * Math::sqrt(builder.mesh.cell_area(cell));
   }
 
+  KOKKOS_INLINE_FUNCTION bool facesOnAxis(RayHit const &hit) const
+  {
+    return isOnAxis(builder.segment(hit.segment).cell);
+  }
+
   /// Number k of segment i: 0 of its own pressure, 1 and 2 of its rows.
   KOKKOS_INLINE_FUNCTION PlannedTraction traction(int i, int k) const
   {
@@ -87,8 +92,8 @@ struct TractionFinder
     if (builder.mesh.cell_depth(cell) != 0 || isOnAxis(cell))
       return {0.0, 0.0};
     if (k > 0)
-      return {k <= planned(i).count && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
-    if (!isPressed(i))
+      return {k <= planned(i).count && !facesOnAxis(planned(i).hit[k - 1]) && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
+    if (!isPressed(i) || facesOnAxis(builder.hit(i)))
       return {0.0, 0.0};
     Vector2 const n = builder.segment(i).normal, rest = n - rowNormal(i);
     return norm(rest) < round_off ? PlannedTraction{0.0, 0.0}

@@ -23,7 +23,7 @@ struct RowBuilder;
 ///
 /// with the weights of rows, before the multipliers are found: a fluid of one pressure on bodies at rest is in balance
 /// with the multipliers p, whatever facets the reconstruction made (doc/decisions/0029). Where a row acts over just its
-/// facet the two are one. Planar meshes alone.
+/// facet the two are one.
 struct PressureTractions
 {
   ContactRows rows;        // one for each traction; num_multipliers counts two for each

@@ -207,13 +207,15 @@ struct RowBuilder
   }
 
   /// What a segment, or a part of one, meets along its ray; where it is one of few short pieces that lie on each other,
-  /// as far away as both sides' arcs are: at contact's end, or before it begins.
+  /// at the rim of a contact or of bodies about to touch, as far away as both sides' arcs are. The free sides of a
+  /// body-fitted mesh are no chords.
   KOKKOS_INLINE_FUNCTION RayHit alongArcs(InterfaceSegment const &a, RayHit const &to, Vector2 const &normal) const
   {
     constexpr double touching = 1e-3, longest = 0.5, few = 1.5; // [cells]
     InterfaceSegment const &b = segment(to.segment);
     double const h = a.cell_size;
-    if (to.gap > touching * h || a.parts * a.length > longest * h || b.material < 0 || bearing.isPressed(a) ||
+    bool const fitted = a.face >= 0 && mesh.face_neighbour(a.cell, a.face) < 0;
+    if (to.gap > touching * h || a.parts * a.length > longest * h || fitted || b.material < 0 || bearing.isPressed(a) ||
         bearing.isPressed(b) || options.interaction(a.material, b.material).kind == Interaction::Bonded ||
         touchingLength(facing, a, b.material) > few)
       return to;

@@ -73,7 +73,7 @@ struct Stiffness
   double speed_squared, shear;
 };
 
-/// Part of a square by which a patch may miss the scheme's, where edges are free.
+/// What a patch may miss of the scheme's square where edges are free, over that of the whole cell.
 constexpr double most_missed = 0.05;
 
 /// A bound of a frequency's square, and what of it is owed to motions of two directions at free edges. [1/length^2]
@@ -330,6 +330,19 @@ struct EdgeStepFunctor
     return {largest + at_free_edges, at_free_edges};
   }
 
+  /// What a pair's patch asks for; where that has no room, the bound.
+  /// \param of_cell The square of the whole cell, which is the least.
+  HARMOS_LARGE_FUNCTION double patchSquare(int cell, int pair, BoundedSquare const &bound, double of_cell) const
+  {
+    Patch patch;
+    if (!gather(cell, pair, patch))
+      return bound.whole;
+    // A patch may hold pairs that ask for more: this one asks for no more than its bound.
+    double const found =
+        Math::min(patch.largestSquare(), bound.whole) + Math::min(bound.at_free_edges, most_missed * of_cell);
+    return Math::max(of_cell, found);
+  }
+
   /// 1 / dt of a pair at Courant number one.
   KOKKOS_INLINE_FUNCTION double rate(int cell, int pair) const
   {
@@ -347,13 +360,7 @@ struct EdgeStepFunctor
     };
     BoundedSquare const bound = boundedSquare(cell, pair, stiffnessOf(pair).shear);
     double const bounded = rateAt(bound.whole);
-    Patch patch;
-    if (!patches || bounded * dt <= 1.0 || !gather(cell, pair, patch))
-      return bounded;
-    // A patch may hold pairs that ask for more: this one asks for no more than its bound.
-    double const found =
-        Math::min(patch.largestSquare(), bound.whole) + Math::min(bound.at_free_edges, most_missed * of_cell);
-    return rateAt(Math::max(of_cell, found));
+    return patches && bounded * dt > 1.0 ? rateAt(patchSquare(cell, pair, bound, of_cell)) : bounded;
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int i, detail::LargestRate &largest) const

@@ -279,9 +279,10 @@ TimeStepLimit stableTimeStep(Mesh const &mesh, CellMaterialPairs const &pairs, P
 /// cells' radius, g = 0, 0.1, 0.29).
 ///
 /// A pair that by this asks for less than dt gets the frequency of what shares its dof nodes and of what shares theirs,
-/// node conditions and each pair's own stiffness included, by ten turns of power iteration. Where edges are free that
-/// may miss up to a twentieth of the square of the scheme's: it is added, as far as the term with phi goes. dt is then
-/// within 2.5% of the largest stable one. `courant` plays no part in what is found.
+/// node conditions and each pair's own stiffness included (stiffer ones count as the pair itself: they are looked at by
+/// themselves), by ten turns of power iteration. Where edges are free that may miss something of the scheme's: a
+/// twentieth of the square of a whole cell is added, as far as the term with phi goes. dt is then within 2.5% of the
+/// largest stable one. More than 48 pairs or 56 dof nodes: the bound. `courant` plays no part in what is found.
 ///
 /// \param work Overwrites dof_mass where a pair asks for less than dt.
 /// Hughes, The Finite Element Method (1987), 9.3: element frequencies bound those of the assembly.

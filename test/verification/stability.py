@@ -178,8 +178,8 @@ def test_gas_rests_beside_solids_about_an_axis():
 
 
 def test_gas_that_is_squeezed_to_nothing_gains_no_energy():
-    # Remnants beside the axis slide along the liner at a speed that their own heat allows. With tractions up to slips of sqrt(p / density)
-    # contact gave them 1e12 times the energy of the scene (planar).
+    # Remnants beside the axis slide along the liner at a speed that their own heat allows. With tractions up to slips of 0.5 sqrt(p / density)
+    # contact gave them 1e11 times the energy of the scene (planar).
     for geometry in "planar", "axisymmetric":
         r = harmos(ROOT / "test/verification/decks/collapse.yaml", {"geometry": geometry})
         loss = r["contact_loss"]

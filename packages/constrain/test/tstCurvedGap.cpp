@@ -125,6 +125,18 @@ TEST(CurvedGap, facetsInPieces_countByTheirCells)
   EXPECT_GT(gapOf(pieces, atPoint(0.1)), 0.015);
 }
 
+TEST(CurvedGap, manyCells_leaveRoomForThoseThatCount)
+{
+  // Shallow arcs in narrow cells, as a side at 45 degrees has them: more than there is room for, most of them far away.
+  std::vector<InterfaceSegment> all;
+  for (int i = -12; i < 12; ++i)
+  {
+    addChord(all, 0, 100 + i, 40.0, 0.0, 0.5 * i, 0.5 * (i + 1));
+    addChord(all, 1, 200 + i, 40.0, 0.005, 0.5 * i + 0.2, 0.5 * (i + 1) + 0.2);
+  }
+  EXPECT_NEAR(gapOf(all, atPoint(0.0)), 0.005, 1e-3);
+}
+
 TEST(CurvedGap, flatSides_areNotMovedApart)
 {
   std::vector<InterfaceSegment> all;

@@ -24,8 +24,7 @@ struct Patch
   static constexpr int most_pairs = 48, most_nodes = 56;
 
   int num_pairs = 0, num_nodes = 0;
-  double modulus[most_pairs]; // mass times c^2 over that of the first pair, at most one: stiffer ones ask for steps of
-                              // their own [mass]
+  double modulus[most_pairs]; // mass times c^2 over that of the first pair; stiffer ones count as that one [mass]
   double shear[most_pairs];   // G / (rho c^2)
   CornerGradients gradient[most_pairs];
   int node_of[most_pairs][4];
