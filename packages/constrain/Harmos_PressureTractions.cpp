@@ -35,8 +35,10 @@ struct TractionFinder
     if (b.material < 0)
       return true;
     bool const tied = builder.options.interaction(a.material, b.material).kind == Interaction::Bonded;
-    bool const other_counts = builder.bearing.isPressed(b) && !builder.isSlave(a, b);
-    return !other_counts && !tied && builder.haveOwnNodes(a);
+    bool const two_fluids = builder.bearing.isPressed(b);
+    if (two_fluids && (builder.mesh.geometry != Geometry::Planar || !builder.isSlave(a, b)))
+      return false;
+    return !tied && builder.haveOwnNodes(a);
   }
 
   /// Whether two segments are the two sides of one line.

@@ -30,8 +30,8 @@ struct PressureTractions
   View<double *[2]> along; // num_own: traction per pressure [1], along the row's normal and across it
 };
 
-/// The tractions of the segments of owned cells. Of two fluids the slave's facets count; bonded pairs, and cells with a
-/// corner on an axis, have none. The caller sums num_multipliers and exchanges the rows.
+/// The tractions of the segments of owned cells. Of two fluids the slave's facets count, about an axis none; bonded
+/// pairs, and cells with a corner on an axis, have none. The caller sums num_multipliers and exchanges the rows.
 /// \param planned The rows of each segment.
 PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
                                         WorkArrays const &work);
