@@ -141,7 +141,6 @@ struct FacetPressure
   Mesh mesh;
   CellMaterialPairs pairs;
   View<double *[3]> pressure;
-  View<double *> impedance;
   View<int *> fluid;
 
   /// Mean over a cell and those around it, each at most `steep` of the cell's own off that.
@@ -178,14 +177,9 @@ struct FacetPressure
   KOKKOS_INLINE_FUNCTION double operator()(ContactRow const &row, double slip) const
   {
     bool const a = presses(row.material_a, row.body_a), b = presses(row.material_b, row.body_b);
-    double const p_a = a ? around(row.cell_a, row.material_a) : 0.0, p_b = b ? around(row.cell_b, row.material_b) : 0.0;
-    double part_a = a ? 1.0 : 0.0;
+    double p = a ? around(row.cell_a, row.material_a) : around(row.cell_b, row.material_b);
     if (a && b)
-    {
-      double const z_a = impedance(row.material_a), z_b = impedance(row.material_b);
-      part_a = z_a + z_b > 0.0 ? z_b / (z_a + z_b) : 0.5;
-    }
-    double const p = part_a * p_a + (1.0 - part_a) * p_b;
+      p = Math::min(p, around(row.cell_b, row.material_b));
     if (!(p > 0.0))
       return 0.0;
     double density = a ? densityOf(row.cell_a, row.material_a) : 0.0;
@@ -256,7 +250,7 @@ PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSys
   found.system = system;
   View<double *[2]> const impulse = work.zeros<double *[2]>("Harmos::constrain::pressure_impulse", system.num_rows);
   View<double *[2]> const velocity = work.unset<double *[2]>("Harmos::constrain::facet_velocity", system.num_rows);
-  FacetPressure const press{mesh, pairs, pressure, options.impedance, options.fluid};
+  FacetPressure const press{mesh, pairs, pressure, options.fluid};
   View<ContactRow *> const row = tractions.rows.row;
   View<double *[2]> const along = tractions.along;
   ContactSystem const s = system;

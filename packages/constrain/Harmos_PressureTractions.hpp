@@ -50,8 +50,7 @@ struct PressureImpulses
 /// cell's own off that. With the cell's own the tractions would take away all that resists a light sliver's sliding
 /// into a corner, and noise grew (e-fold in 0.8 ms beside a square of 0.7 m in air). Without the viscosity, which
 /// follows the velocity that the tractions make. They do work on what slides: where the sides pass each other by 0.1
-/// sqrt(p / density) they fade, at twice that they are none. Between two fluids p is the mean weighted by the other's
-/// impedance: the softer decides.
+/// sqrt(p / density) they fade, at twice that they are none. Between two fluids p is the lower: what both carry.
 /// \param system Of tractions.rows, at v*. \param before v^{n-1/2}
 /// \param pressure Of the pairs [Pa], the volumes that they fill, their masses. Collective.
 PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,

@@ -67,10 +67,9 @@ double gapOf(std::vector<InterfaceSegment> const &all, InterfaceSegment const &a
   Kokkos::deep_copy(s.segment, host);
   SegmentBins const bins = binSegments(s, 1.2 * cell_size);
   View<double *> const gap("gap", 1);
+  Vector2 const up = turned({0.0, 1.0});
   Kokkos::parallel_for(
-      "gap", RangePolicy(0, 1), KOKKOS_LAMBDA(int) {
-        gap(0) = curvedGap(bins, at, 1, turned({0.0, 1.0}));
-      });
+      "gap", RangePolicy(0, 1), KOKKOS_LAMBDA(int) { gap(0) = curvedGap(bins, at, 1, up); });
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), gap)(0);
 }
 
