@@ -34,9 +34,6 @@ std::vector<double> gather(std::vector<double> const &own, Exchange const &excha
   return all;
 }
 
-/// Largest gap at which two bodies touch. [cell sizes]
-constexpr double touching = 1e-3;
-
 bool near(Bond const &a, Bond const &b, double distance)
 {
   Vector2 const apart = a.point - b.point;
@@ -89,7 +86,7 @@ std::vector<double> ownBonds(Mesh const &mesh, ContactRows const &rows, HostView
   for (int i = 0; i < rows.num_own; ++i)
   {
     ContactRow const &r = row(own(i));
-    if (r.material_b < 0 || r.gap > touching * std::sqrt(cell_area(r.cell_a)))
+    if (r.material_b < 0 || r.gap > touching_gap * std::sqrt(cell_area(r.cell_a)))
       continue;
     PairInteraction const &pair = law(r.material_a, r.material_b);
     if (pair.kind != Interaction::Bonded || !pair.strength.limited())

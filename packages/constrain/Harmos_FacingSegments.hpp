@@ -91,9 +91,9 @@ struct SampleGatherer
 /// point. [cells]
 KOKKOS_INLINE_FUNCTION double touchingLength(FacingSegments const &facing, InterfaceSegment const &s, int other)
 {
-  constexpr double reach = 2.0, touching = 1e-3; // [cells]
+  constexpr double reach = 2.0; // [cells]
   Vector2 const box{reach * s.cell_size, reach * s.cell_size};
-  Pack const a = s.material, b = other, least = touching * s.cell_size, zero = 0.0;
+  Pack const a = s.material, b = other, least = touching_gap * s.cell_size, zero = 0.0;
   Pack sum = 0.0;
   facing.bins.forEachRun(s.point - box, s.point + box,
                          [&](int begin, int end)

@@ -132,7 +132,7 @@ struct SegmentFinder
       {
         double const end = Math::min(dot(a, edge.direction), edge.length);
         double const begin = Math::max(dot(b, edge.direction), 0.0);
-        if (end - begin > tolerance) // regions are convex: it is the only one, if it is whole
+        if (end - begin > tolerance) // the only one, if it is whole
           return begin <= tolerance && end >= edge.length - tolerance;
       }
       a = b;

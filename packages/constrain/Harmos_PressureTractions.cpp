@@ -245,7 +245,6 @@ PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSys
                                   ConstraintOptions const &options, double kick, Exchange const &exchange,
                                   WorkArrays const &work)
 {
-  constexpr double thin = 1e-3; // void through which what lies on each other is felt [cells]
   PressureImpulses found;
   found.system = system;
   View<double *[2]> const impulse = work.zeros<double *[2]>("Harmos::constrain::pressure_impulse", system.num_rows);
@@ -258,7 +257,7 @@ PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSys
       "Harmos::constrain::pressureImpulses", s.num_own, KOKKOS_LAMBDA(int i) {
         int const r = s.own(i);
         ContactRow const &facet = row(r);
-        if (facet.gap > thin * Math::sqrt(mesh.cell_area(facet.cell_a)) && s.predicted(r, 0) >= 0.0)
+        if (facet.gap > touching_gap * Math::sqrt(mesh.cell_area(facet.cell_a)) && s.predicted(r, 0) >= 0.0)
           return;
         double const slip = norm(relativeVelocity(facet, before.velocity, before.bodies));
         double const load = kick * facet.length * press(facet, slip);

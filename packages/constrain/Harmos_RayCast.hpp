@@ -7,6 +7,9 @@
 namespace Harmos
 {
 
+/// Widest void through which two sides touch. [cells]
+constexpr double touching_gap = 1e-3;
+
 /// Least cosine of the angle between a ray and the reversed normal of a surface that faces it.
 constexpr double facing_cosine = 0.5;
 

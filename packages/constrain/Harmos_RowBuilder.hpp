@@ -211,12 +211,13 @@ struct RowBuilder
   /// body-fitted mesh are no chords.
   KOKKOS_INLINE_FUNCTION RayHit alongArcs(InterfaceSegment const &a, RayHit const &to, Vector2 const &normal) const
   {
-    constexpr double touching = 1e-3, longest = 0.5, few = 1.5; // [cells]
+    constexpr double longest = 0.5, few = 1.5; // [cells]
     InterfaceSegment const &b = segment(to.segment);
     double const h = a.cell_size;
     bool const fitted = a.face >= 0 && mesh.face_neighbour(a.cell, a.face) < 0;
-    if (to.gap > touching * h || a.parts * a.length > longest * h || fitted || b.material < 0 || bearing.isPressed(a) ||
-        bearing.isPressed(b) || options.interaction(a.material, b.material).kind == Interaction::Bonded ||
+    if (to.gap > touching_gap * h || a.parts * a.length > longest * h || fitted || b.material < 0 ||
+        bearing.isPressed(a) || bearing.isPressed(b) ||
+        options.interaction(a.material, b.material).kind == Interaction::Bonded ||
         touchingLength(facing, a, b.material) > few)
       return to;
     return {to.segment, Math::max(to.gap, h * curvedGap(bins, a, b.material, normal)), to.cosine};

@@ -7,7 +7,8 @@
 namespace Harmos
 {
 
-/// The filled regions of the mixed cells: one convex polygon for every pair of a mixed cell; pure cells store none.
+/// The filled regions of the mixed cells: one polygon for every pair of a mixed cell, convex but around a corner of
+/// another body (embeddedCornerPlan); pure cells store none.
 ///
 /// They were cut off the cell one component after the other. A cell of n pairs has n - 1 cuts, or n with void: entry i
 /// tells which component the i-th took and its normal; an n-th that is none has the normal zero.

@@ -82,6 +82,17 @@ struct CutBody
                          s.work);
   }
 
+  /// Energy of the pairs of the cells from column `first` on.
+  void heat(int n, int first, double energy)
+  {
+    auto const record = onHost(s.state.record);
+    auto const cell = onHost(s.pairs.cell);
+    for (int pair = 0; pair < s.pairs.num_pairs; ++pair)
+      if (cell(pair) % n >= first)
+        record(pair, InternalEnergy) = energy;
+    Kokkos::deep_copy(s.state.record, record);
+  }
+
   /// 2 / omega of the largest frequency, by power iteration with the kernels' own strains and forces.
   double stableStep()
   {
@@ -181,6 +192,28 @@ TEST(EdgeStepLimit, ObliqueBodies_areNearWhatTheirLargestFrequencyAllows)
         EXPECT_GE(stable, 0.988 * limit) << "angle " << angle << ", side " << side;
         EXPECT_LE(stable, 1.025 * limit) << "angle " << angle << ", side " << side;
       }
+}
+
+TEST(EdgeStepLimit, ColdGasBesideHot_asksForNoShorterStepThanHotGasAlone)
+{
+  Material gas = fluid();
+  gas.eos = EosKind::IdealGas;
+  gas.gruneisen = 1.4; // gamma
+  for (double const angle : {0.0, 0.2, 0.7})
+    for (double const side : {2.3, 5.0})
+    {
+      auto const limitWithHotFrom = [&](int column)
+      {
+        CutBody body(8, squareOf({4.13, 3.9}, side, angle), gas, 0.06);
+        body.heat(8, 0, 1.0);
+        body.heat(8, column, 400.0); // twenty times the speed of sound
+        return body.limit().dt;
+      };
+      double const hot = limitWithHotFrom(0), cold = limitWithHotFrom(8);
+      EXPECT_NEAR(cold, 20.0 * hot, 1e-9 * cold);
+      for (int column = 3; column < 6; ++column)
+        EXPECT_GE(limitWithHotFrom(column), 0.999 * hot) << angle << ' ' << side << ' ' << column;
+    }
 }
 
 TEST(EdgeStepLimit, SliverAlongAFaceOfABody_leavesTheStepOfFullCells)
