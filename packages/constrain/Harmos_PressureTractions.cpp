@@ -257,7 +257,7 @@ PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSys
       "Harmos::constrain::pressureImpulses", s.num_own, KOKKOS_LAMBDA(int i) {
         int const r = s.own(i);
         ContactRow const &facet = row(r);
-        if (facet.gap > touching_gap * Math::sqrt(mesh.cell_area(facet.cell_a)) && s.predicted(r, 0) >= 0.0)
+        if (facet.gap > touching_gap * Math::sqrt(mesh.cell_area(facet.cell_a)))
           return;
         double const slip = norm(relativeVelocity(facet, before.velocity, before.bodies));
         double const load = kick * facet.length * press(facet, slip);

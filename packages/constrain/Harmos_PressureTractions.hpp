@@ -43,8 +43,8 @@ struct PressureImpulses
   MultiplierSolution solution; // impulses along the normals and across [N s/m]; changes of velocity [m/s]
 };
 
-/// Impulses of the tractions over `kick`, where their sides touch: a void of at most 1e-3 cells, or closed by the end
-/// of the step at v*. None in tension.
+/// Impulses of the tractions over `kick`, where their sides touch (touching_gap): void beyond that closes under the
+/// pressure. None in tension.
 ///
 /// p is the mean over the fluid's part of the cell and of those around it, by volume, each at most a tenth of the
 /// cell's own off that. With the cell's own the tractions would take away all that resists a light sliver's sliding

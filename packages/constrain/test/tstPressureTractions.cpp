@@ -187,3 +187,16 @@ TEST(PressureTractions, actOnlyWhereAFluidPresses)
   EXPECT_EQ(changes(pressure, 0.3, Interaction::Sliding), 0.0); // more than the steps
   EXPECT_EQ(changes(pressure, 0.0, Interaction::Bonded), 0.0);
 }
+
+TEST(PressureTractions, doNotHoldVoidOpenThatThePressureCloses)
+{
+  TinyScene scene = steps(1, 2.0, 0.3);
+  drive(scene, 1, pressure);
+  scene.constrain();
+  EXPECT_GT(fastest(scene), 0.3 / scene.dt); // the fluid goes into it
+  View<double *[2]> const without("without", scene.half.extent(0));
+  Kokkos::deep_copy(without, scene.half);
+  press(scene, pressure);
+  scene.constrain();
+  EXPECT_EQ(largest(without, scene.half), 0.0);
+}
