@@ -150,10 +150,10 @@ def test_gases_rest_at_each_others_corners():
 
 
 def test_air_stays_where_it_is_over_a_block_that_begins_to_float():
-    # Void that opened between air and wood was held open, up to 0.005 of a cell: 0.1 and 1.3 J/m in 40 ms. The block's sides lie inside of cells, and on faces.
-    for center, bound in (("[0.311, 0.433]", 0.02), ("[0.3, 0.43]", 0.1)):
+    # Void that opened between air and wood was held open, up to 0.005 of a cell, and air ran along it: 0.26 to 0.33 J/m. Now at most 0.012.
+    for center in "[0.307, 0.437]", "[0.311, 0.433]", "[0.3145, 0.431]":
         r = harmos(ROOT / "test/verification/decks/floating_block.yaml", {"bodies/block/center": center})
-        check(f"block at {center}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), bound)
+        check(f"block at {center}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), 0.1)
         check("energy ledger", r.summary["energy_error"], 1e-10)
         clean(r)
 
