@@ -17,18 +17,57 @@ struct PlannedTraction
   KOKKOS_INLINE_FUNCTION bool any() const { return along != 0.0 || across != 0.0; }
 };
 
+KOKKOS_INLINE_FUNCTION bool touches(RowBuilder const &builder, int i)
+{
+  RayHit const &hit = builder.hit(i);
+  return hit.segment >= 0 && hit.gap <= touching_gap * builder.segment(i).cell_size;
+}
+
+/// What bears the pressure of segment i, which touches nothing along its ray: what the nearest segment of its body
+/// touches, where that is as near as sides that touch. Thin void has short sides along which rays leave it: they are in
+/// balance with its other sides, which touch what lies across. Else, as across a crack in the body, what the ray meets.
+KOKKOS_INLINE_FUNCTION RayHit hitBeside(RowBuilder const &builder, int i)
+{
+  InterfaceSegment const &a = builder.segment(i);
+  double nearest = touching_gap * a.cell_size;
+  RayHit found = builder.hit(i);
+  auto const lookAt = [&](int cell)
+  {
+    for (int j = builder.segments.firstOf(cell); j < builder.segments.count && builder.segment(j).cell == cell; ++j)
+    {
+      InterfaceSegment const &b = builder.segment(j);
+      if (b.material != a.material || !touches(builder, j) || dot(a.normal, b.normal) < -facing_cosine)
+        continue;
+      Vector2 const tangent = perpendicular(b.normal), apart = a.midpoint - b.midpoint;
+      double const along = Math::clamp(dot(apart, tangent), -0.5 * b.length, 0.5 * b.length);
+      double const distance = norm(apart - along * tangent);
+      if (distance < nearest)
+      {
+        nearest = distance;
+        found = builder.hit(j);
+      }
+    }
+  };
+  lookAt(a.cell);
+  int const across = a.face >= 0 ? builder.mesh.face_neighbour(a.cell, a.face) : -1;
+  if (across >= 0)
+    lookAt(across / 4);
+  return found;
+}
+
 struct TractionFinder
 {
   static constexpr int most = 3; // of a segment: its own, and those of its rows
 
   RowBuilder builder;
   View<PlannedRows *> planned;
+  View<RayHit *> hit; // what bears the pressure of each segment
 
   /// Whether segment i is a facet whose pressure counts, on what it faces.
   KOKKOS_INLINE_FUNCTION bool isPressed(int i) const
   {
     InterfaceSegment const &a = builder.segment(i);
-    int const facing = builder.hit(i).segment;
+    int const facing = hit(i).segment;
     if (!builder.bearing.isPressed(a) || facing < 0)
       return false;
     InterfaceSegment const &b = builder.segment(facing);
@@ -47,7 +86,7 @@ struct TractionFinder
     constexpr double round_off = 1e-12;
     InterfaceSegment const &a = builder.segment(i), &b = builder.segment(facing);
     double const least = round_off * a.cell_size;
-    return builder.hit(facing).segment == i && b.cell == a.cell && norm(a.midpoint - b.midpoint) <= least &&
+    return hit(facing).segment == i && b.cell == a.cell && norm(a.midpoint - b.midpoint) <= least &&
            Math::fabs(a.length - b.length) <= least;
   }
 
@@ -55,7 +94,7 @@ struct TractionFinder
   /// -1 without one.
   KOKKOS_INLINE_FUNCTION int carrierOf(int facet) const
   {
-    int const facing = builder.hit(facet).segment;
+    int const facing = hit(facet).segment;
     if (planned(facet).count == 1)
       return facet;
     return planned(facet).count == 0 && planned(facing).count == 1 && areOne(facet, facing) ? facing : -1;
@@ -95,7 +134,7 @@ struct TractionFinder
       return {0.0, 0.0};
     if (k > 0)
       return {k <= planned(i).count && !facesOnAxis(planned(i).hit[k - 1]) && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
-    if (!isPressed(i) || facesOnAxis(builder.hit(i)))
+    if (!isPressed(i) || facesOnAxis(hit(i)))
       return {0.0, 0.0};
     Vector2 const n = builder.segment(i).normal, rest = n - rowNormal(i);
     return norm(rest) < round_off ? PlannedTraction{0.0, 0.0}
@@ -109,7 +148,7 @@ struct TractionFinder
     {
       own.count = 1;
       own.normal[0] = builder.segment(i).normal;
-      own.hit[0] = builder.hit(i);
+      own.hit[0] = hit(i);
     }
     ContactRow row = k == 0 ? builder.makeRow(i, own, 0) : builder.makeRow(i, planned(i), k - 1);
     row.tied = 0;
@@ -126,7 +165,7 @@ private:
     if (isPressed(i))
       return carrierOf(i) != i;
     int const facing = planned(i).hit[half].segment;
-    return isPressed(facing) && builder.segment(builder.hit(facing).segment).material == builder.segment(i).material &&
+    return isPressed(facing) && builder.segment(hit(facing).segment).material == builder.segment(i).material &&
            carrierOf(facing) != i;
   }
 };
@@ -194,9 +233,16 @@ struct FacetPressure
 PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
                                         WorkArrays const &work)
 {
-  TractionFinder const finder{builder, planned};
   constexpr int most = TractionFinder::most;
   int const count = builder.segments.count;
+  View<RayHit *> const hit = work.unset<RayHit *>("Harmos::constrain::pressed_on", count);
+  RowBuilder const rows = builder;
+  launchFor(
+      "Harmos::constrain::findPressedOn", count, KOKKOS_LAMBDA(int i) {
+        bool const alone = rows.bearing.isPressed(rows.segment(i)) && planned(i).count == 0 && !touches(rows, i);
+        hit(i) = alone ? hitBeside(rows, i) : rows.hit(i);
+      });
+  TractionFinder const finder{builder, planned, hit};
   View<PlannedTraction *[most]> const traction =
       work.unset<PlannedTraction *[most]>("Harmos::constrain::traction", count);
   View<int *> const place = work.unset<int *>("Harmos::constrain::traction_place", count);

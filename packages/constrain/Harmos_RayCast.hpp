@@ -169,7 +169,7 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, InterfaceSegments const 
                             ray.offer(mesh, bins.item(i + lane), bins.item(i + lane).segment);
                       }
                     });
-  if (ray.hit.segment < 0 || ray.hit.gap <= shared * from.cell_size)
+  if (ray.hit.segment < 0 || ray.hit.gap <= touching_gap * from.cell_size)
     return ray.hit;
   bool stopped = false; // by the other side of a crack in its own body
   ray.box(0.52 * bins.size, low, high);
@@ -183,7 +183,7 @@ KOKKOS_INLINE_FUNCTION RayHit castRay(Mesh const &mesh, InterfaceSegments const 
 ///
 /// A facing surface behind the origin counts (gap 0) within round-off, and where the two cells share no node (blocks of
 /// a moving mesh that overlap slightly) down to deepest_overlap. A ray that meets its own body first, across a crack in
-/// it, meets nothing.
+/// it, meets nothing but what it touches (touching_gap): the crack is in a film then that lies on the other body.
 View<RayHit *> castRays(Mesh const &mesh, InterfaceSegments const &segments, SegmentBins const &bins,
                         WorkArrays const &work = {});
 

@@ -28,6 +28,20 @@ std::vector<RayHit> hitsOf(TinyScene const &scene)
   return std::vector<RayHit>(host.data(), host.data() + s.count);
 }
 
+/// Body 0 above `bottom`, in the second row of cells, but for a film of void of 1e-5 along the upper faces there.
+Body crackedAbove(double bottom)
+{
+  return {0, [bottom](Quadrilateral const &cell)
+          {
+            Region above, upper;
+            clip(wholeCell(cell), Plane2{{0.0, -1.0}, -bottom}, above);
+            if (cell[0][1] != 1.0)
+              return above;
+            clip(above, Plane2{{0.0, 1.0}, 2.0 - 1e-5}, upper);
+            return upper;
+          }};
+}
+
 } // namespace
 
 TEST(InterfaceSegments, pureMeshOfOneMaterial_hasNone)
@@ -61,18 +75,7 @@ TEST(InterfaceSegments, interfaceOnFaces_pureCellsExposeWholeFaces)
 // farther on: behind its own body. (Vital vertices shared a multiplier with such a row, and what touched bore nothing.)
 TEST(InterfaceSegments, rayFromACrackInItsBody_meetsNothingBehindIt)
 {
-  Body const cracked{0, [](Quadrilateral const &cell)
-                     {
-                       double const bottom = cell[0][1];
-                       Region const whole = wholeCell(cell);
-                       Region above, upper;
-                       clip(whole, Plane2{{0.0, -1.0}, -1.5}, above);
-                       if (bottom != 1.0)
-                         return above;
-                       clip(above, Plane2{{0.0, 1.0}, 2.0 - 1e-5}, upper);
-                       return upper;
-                     }};
-  TinyScene const scene(rectilinearMesh(uniform(3, 3), uniform(3, 3)), {cracked, boxBody(1, 0, 0, 3, 1.3)}, 2,
+  TinyScene const scene(rectilinearMesh(uniform(3, 3), uniform(3, 3)), {crackedAbove(1.5), boxBody(1, 0, 0, 3, 1.3)}, 2,
                         open_box);
   auto const s = segmentsOf(scene);
   auto const hit = hitsOf(scene);
@@ -90,6 +93,26 @@ TEST(InterfaceSegments, rayFromACrackInItsBody_meetsNothingBehindIt)
     }
   }
   EXPECT_EQ(faces, 3);
+  EXPECT_EQ(upper_sides, 3);
+}
+
+// What is left below the film is a film itself and lies on body 1: what is above it presses on that body as well.
+TEST(InterfaceSegments, rayFromACrackNearItsBodysSurface_meetsWhatTheBodyTouches)
+{
+  double const surface = 2.0 - 4e-4;
+  TinyScene const scene(rectilinearMesh(uniform(3, 3), uniform(3, 3)),
+                        {crackedAbove(surface), boxBody(1, 0, 0, 3, surface)}, 2, open_box);
+  auto const s = segmentsOf(scene);
+  auto const hit = hitsOf(scene);
+  int upper_sides = 0;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if (s[i].material == 0 && s[i].normal[1] < -0.5 && s[i].midpoint[1] > 2.0 - 1e-9)
+    {
+      ++upper_sides;
+      ASSERT_GE(hit[i].segment, 0);
+      EXPECT_EQ(s[static_cast<std::size_t>(hit[i].segment)].material, 1);
+      EXPECT_NEAR(hit[i].gap, 4e-4, 1e-12);
+    }
   EXPECT_EQ(upper_sides, 3);
 }
 
