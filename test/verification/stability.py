@@ -150,9 +150,9 @@ def test_gases_rest_at_each_others_corners():
 
 
 def test_air_stays_where_it_is_over_a_block_that_begins_to_float():
-    # Void that opened between air and wood was held open, up to 0.005 of a cell, and air ran along it: 0.26 to 0.51 J/m. Now at most 0.013.
+    # Void that opened between air and wood was held open, up to 0.005 of a cell, and air ran along it: 0.26 to 2.4 J/m. Now at most 0.013.
     # The last place has its sides on cell faces: films of air that rays could not pass gave 21 J/m there.
-    for center in "[0.307, 0.437]", "[0.311, 0.433]", "[0.3145, 0.431]", "[0.3, 0.43]":
+    for center in "[0.307, 0.437]", "[0.311, 0.433]", "[0.318, 0.4355]", "[0.3, 0.43]":
         r = harmos(ROOT / "test/verification/decks/floating_block.yaml", {"bodies/block/center": center})
         check(f"block at {center}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), 0.1)
         check("energy ledger", r.summary["energy_error"], 1e-10)
