@@ -17,11 +17,49 @@ struct CornerGradients
   double hoop[4];
 };
 
-/// A pair (the first of them), those around it that share its dof nodes, those around these, and the nodes that move
-/// them.
+/// A symmetric, positive semi-definite, tridiagonal matrix.
+struct Tridiagonal
+{
+  static constexpr int most_rows = 10;
+
+  int size = 0;
+  double diagonal[most_rows], beside_squared[most_rows]; // the latter: of a row and the one before it
+
+  KOKKOS_INLINE_FUNCTION void push(double value, double beside)
+  {
+    diagonal[size] = value;
+    beside_squared[size++] = beside * beside;
+  }
+
+  /// Whether all eigenvalues are below x: the pivots of x - T are positive.
+  KOKKOS_INLINE_FUNCTION bool isBelow(double x) const
+  {
+    double pivot = 1.0;
+    for (int i = 0; i < size && pivot > 0.0; ++i)
+      pivot = x - diagonal[i] - (i > 0 ? beside_squared[i] / pivot : 0.0);
+    return pivot > 0.0;
+  }
+
+  /// Its largest eigenvalue, to 1e-12 of the trace; 0 if it is empty.
+  KOKKOS_INLINE_FUNCTION double largest() const
+  {
+    double low = 0.0, high = 0.0;
+    for (int i = 0; i < size; ++i)
+      high += diagonal[i];
+    for (int turn = 0; turn < 40; ++turn)
+    {
+      double const middle = 0.5 * (low + high);
+      (isBelow(middle) ? high : low) = middle;
+    }
+    return high;
+  }
+};
+
+/// A pair (the first of them), those around it that share its dof nodes, two layers of those around these, and the
+/// nodes that move them.
 struct Patch
 {
-  static constexpr int most_pairs = 48, most_nodes = 56;
+  static constexpr int most_pairs = 64, most_nodes = 72;
 
   int num_pairs = 0, num_nodes = 0;
   double modulus[most_pairs]; // mass times c^2 over that of the first pair; stiffer ones count as that one [mass]
@@ -74,39 +112,47 @@ struct Patch
       a[i] = (1.0 / node_mass[i]) * condition[i].project(a[i]);
   }
 
-  KOKKOS_INLINE_FUNCTION double energy(Vector2 const u[most_nodes]) const
+  /// Sum of m u . v. [mass]
+  KOKKOS_INLINE_FUNCTION double product(Vector2 const u[most_nodes], Vector2 const v[most_nodes]) const
   {
     double sum = 0.0;
     for (int i = 0; i < num_nodes; ++i)
-      sum += node_mass[i] * dot(u[i], u[i]);
+      sum += node_mass[i] * dot(u[i], v[i]);
     return sum;
   }
 
-  /// omega^2 / (4 c^2) of its largest frequency, by power iteration from the strain that the first pair resists most.
+  /// omega^2 / (4 c^2) of its largest frequency, by a Lanczos iteration (Parlett, The symmetric eigenvalue problem,
+  /// chapter 13) from the strain that the first pair resists most: from below.
   KOKKOS_INLINE_FUNCTION double largestSquare() const
   {
-    constexpr int turns = 10;
-    Vector2 u[most_nodes], a[most_nodes];
+    constexpr double negligible = 1e-12;
+    Tridiagonal t;
+    Vector2 last[most_nodes], u[most_nodes], a[most_nodes];
     for (int i = 0; i < num_nodes; ++i)
-      u[i] = {0.0, 0.0};
+      last[i] = u[i] = {0.0, 0.0};
     for (int k = 0; k < 4; ++k)
     {
       int const i = node_of[0][k];
       u[i] = (1.0 / node_mass[i]) * condition[i].project(gradient[0].of[k] + Vector2{gradient[0].hoop[k], 0.0});
     }
-    double square = 0.0;
-    for (int turn = 0; turn < turns; ++turn)
+    double norm = Math::sqrt(product(u, u)), beside = 0.0, scale = 0.0;
+    while (t.size < Tridiagonal::most_rows && norm > negligible * scale)
     {
-      double const before = energy(u);
-      if (!(before > 0.0))
-        return 0.0;
-      apply(u, a);
-      square = Math::sqrt(energy(a) / before);
-      double const scale = 1.0 / Math::sqrt(before);
       for (int i = 0; i < num_nodes; ++i)
-        u[i] = scale * a[i];
+        u[i] = (1.0 / norm) * u[i];
+      apply(u, a);
+      double const diagonal = product(u, a);
+      t.push(diagonal, beside);
+      for (int i = 0; i < num_nodes; ++i)
+      {
+        Vector2 const next = a[i] - diagonal * u[i] - beside * last[i];
+        last[i] = u[i];
+        u[i] = next;
+      }
+      norm = beside = Math::sqrt(product(u, u));
+      scale = Math::max(scale, diagonal + beside);
     }
-    return 0.25 * square;
+    return 0.25 * t.largest();
   }
 };
 
