@@ -73,12 +73,14 @@ struct Stiffness
   double speed_squared, shear;
 };
 
-/// What a patch may miss of the scheme's square where edges are free, over that of the whole cell, from what it found
-/// over the same: motions that whole cells carry on along an edge reach beyond it, those well above stay at their
-/// place.
-KOKKOS_INLINE_FUNCTION double mostMissed(double found)
+/// What is added to the scheme's square where edges are free, over that of the whole cell, from what a patch found
+/// over the same: a motion exactly at its limit grows with the cycles, and the patch misses what reaches beyond it.
+/// That are motions that whole cells carry on along an edge; those well above stay at their place.
+KOKKOS_INLINE_FUNCTION double allowance(double found)
 {
-  return 0.3 * Math::min(Math::max(1.1 - found, 0.0), 0.1);
+  constexpr double margin = 0.005, most_missed = 0.03, of_whole_cells = 1.0, of_local_motions = 1.1;
+  double const between = (of_local_motions - found) / (of_local_motions - of_whole_cells);
+  return margin * found + most_missed * Math::min(Math::max(between, 0.0), 1.0);
 }
 
 /// A bound of a frequency's square, and what of it is owed to motions of two directions at free edges. [1/length^2]
@@ -253,34 +255,44 @@ struct EdgeStepFunctor
     return {c2, shearModulus(material, sv, e) * sv / c2};
   }
 
-  /// Adds a pair that is not yet in the list; false: it has no room.
-  KOKKOS_INLINE_FUNCTION bool enlist(int cell, int pair, int cells[Patch::most_pairs], int listed[Patch::most_pairs],
-                                     int &count) const
+  /// Where the pairs and nodes of a patch are.
+  struct PatchPlaces
   {
-    for (int c = 0; c < count; ++c)
-      if (listed[c] == pair)
+    int cell[Patch::most_pairs], pair[Patch::most_pairs], node[Patch::most_nodes];
+  };
+
+  /// Adds a pair that is not yet there, and its nodes; false: no room.
+  KOKKOS_INLINE_FUNCTION bool enlist(int cell, int pair, Patch &patch, PatchPlaces &places) const
+  {
+    for (int c = 0; c < patch.num_pairs; ++c)
+      if (places.pair[c] == pair)
         return true;
-    if (count == Patch::most_pairs)
+    if (patch.num_pairs == Patch::most_pairs)
       return false;
-    cells[count] = cell;
-    listed[count++] = pair;
+    int const added = patch.num_pairs++;
+    places.cell[added] = cell;
+    places.pair[added] = pair;
+    for (int k = 0; k < 4; ++k)
+    {
+      int const i = patch.local(pairs.dof_node(pair, k));
+      if (i == Patch::most_nodes)
+        return false;
+      patch.node_of[added][k] = i;
+      places.node[i] = mesh.cell_node(cell, k);
+    }
     return true;
   }
 
-  /// Adds the pairs that share dof nodes with one of the list; false: it has no room.
-  KOKKOS_INLINE_FUNCTION bool enlistAround(int member, int cells[Patch::most_pairs], int listed[Patch::most_pairs],
-                                           int &count) const
+  /// Adds the pairs on a node of the patch; false: no room.
+  KOKKOS_INLINE_FUNCTION bool enlistAround(int local, Patch &patch, PatchPlaces &places) const
   {
-    for (int k = 0; k < 4; ++k)
+    int const node = places.node[local], dof = patch.dof[local];
+    for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
     {
-      int const node = mesh.cell_node(cells[member], k), dof = pairs.dof_node(listed[member], k);
-      for (int i = mesh.node_cell.offset(node); i < mesh.node_cell.offset(node + 1); ++i)
-      {
-        int const around = mesh.node_cell.item(i) / 4, there = mesh.node_cell.item(i) % 4;
-        for (int p = pairs.offset(around); p < pairs.offset(around + 1); ++p)
-          if (pairs.dof_node(p, there) == dof && deforms(p) && !enlist(around, p, cells, listed, count))
-            return false;
-      }
+      int const around = mesh.node_cell.item(i) / 4, there = mesh.node_cell.item(i) % 4;
+      for (int p = pairs.offset(around); p < pairs.offset(around + 1); ++p)
+        if (pairs.dof_node(p, there) == dof && deforms(p) && !enlist(around, p, patch, places))
+          return false;
     }
     return true;
   }
@@ -288,31 +300,28 @@ struct EdgeStepFunctor
   /// The patch of a pair; false: it has no room.
   KOKKOS_INLINE_FUNCTION bool gather(int cell, int pair, Patch &patch) const
   {
-    constexpr int rings = 3;
-    int cells[Patch::most_pairs] = {cell}, listed[Patch::most_pairs] = {pair};
-    patch.num_pairs = 1;
-    for (int ring = 0, member = 0; ring < rings; ++ring)
-      for (int const end = patch.num_pairs; member < end; ++member)
-        if (!enlistAround(member, cells, listed, patch.num_pairs))
+    constexpr int layers = 3;
+    PatchPlaces places;
+    if (!enlist(cell, pair, patch, places))
+      return false;
+    for (int layer = 0, local = 0; layer < layers; ++layer)
+      for (int const end = patch.num_nodes; local < end; ++local)
+        if (!enlistAround(local, patch, places))
           return false;
     double const own = stiffnessOf(pair).speed_squared;
     for (int c = 0; c < patch.num_pairs; ++c)
     {
-      int const p = listed[c];
+      int const p = places.pair[c];
       Stiffness const stiffness = stiffnessOf(p);
       patch.modulus[c] = record(p, Mass) * Math::min(1.0, stiffness.speed_squared / own);
       patch.shear[c] = stiffness.shear;
-      patch.gradient[c] = pairGradients(cells[c], p);
-      for (int k = 0; k < 4; ++k)
-      {
-        int const i = patch.local(pairs.dof_node(p, k));
-        if (i == Patch::most_nodes)
-          return false;
-        patch.node_of[c][k] = i;
-        patch.node_mass[i] = dof_mass(patch.dof[i]);
-        int const index = conditionIndex(cells[c], k);
-        patch.condition[i] = index < 0 ? NodeCondition() : boundary.condition(index);
-      }
+      patch.gradient[c] = pairGradients(places.cell[c], p);
+    }
+    for (int i = 0; i < patch.num_nodes; ++i)
+    {
+      int const index = boundary.node_index(places.node[i]);
+      patch.node_mass[i] = dof_mass(patch.dof[i]);
+      patch.condition[i] = index < 0 ? NodeCondition() : boundary.condition(index);
     }
     return true;
   }
@@ -344,11 +353,11 @@ struct EdgeStepFunctor
       return bound.whole;
     // A patch may hold pairs that ask for more: this one asks for no more than its bound.
     double const found = Math::min(patch.largestSquare(), bound.whole);
-    return Math::max(of_cell, found + Math::min(bound.at_free_edges, mostMissed(found / of_cell) * of_cell));
+    return Math::max(of_cell, found + Math::min(bound.at_free_edges, allowance(found / of_cell) * of_cell));
   }
 
-  /// 1 / dt of a pair at Courant number one.
-  KOKKOS_INLINE_FUNCTION double rate(int cell, int pair) const
+  /// 1 / dt of a pair at Courant number one; its bound where that is below `least`, the largest that is known.
+  KOKKOS_INLINE_FUNCTION double rate(int cell, int pair, double least) const
   {
     Material const &material = materials(pairs.material(pair));
     double const sv = record(pair, SpecificVolume), e = record(pair, InternalEnergy);
@@ -364,7 +373,8 @@ struct EdgeStepFunctor
     };
     BoundedSquare const bound = boundedSquare(cell, pair, stiffnessOf(pair).shear);
     double const bounded = rateAt(bound.whole);
-    return patches && bounded * dt > 1.0 ? rateAt(patchSquare(cell, pair, bound, of_cell)) : bounded;
+    return patches && bounded * dt > 1.0 && bounded >= least ? rateAt(patchSquare(cell, pair, bound, of_cell))
+                                                             : bounded;
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int i, detail::LargestRate &largest) const
@@ -374,7 +384,7 @@ struct EdgeStepFunctor
       return;
     for (int pair = pairs.offset(cell); pair < pairs.offset(cell + 1); ++pair)
       if (deforms(pair) && (isCut(cell, pair) || (whole_cells && hasFreeEdge(cell, pair))))
-        largest.include(rate(cell, pair), pair);
+        largest.include(rate(cell, pair, largest.rate), pair);
   }
 };
 

@@ -20,7 +20,7 @@ struct CornerGradients
 /// A symmetric, positive semi-definite, tridiagonal matrix.
 struct Tridiagonal
 {
-  static constexpr int most_rows = 10;
+  static constexpr int most_rows = 8;
 
   int size = 0;
   double diagonal[most_rows], beside_squared[most_rows]; // the latter: of a row and the one before it
@@ -40,13 +40,13 @@ struct Tridiagonal
     return pivot > 0.0;
   }
 
-  /// Its largest eigenvalue, to 1e-12 of the trace; 0 if it is empty.
+  /// Its largest eigenvalue, to 1e-7 of the trace; 0 if it is empty.
   KOKKOS_INLINE_FUNCTION double largest() const
   {
     double low = 0.0, high = 0.0;
     for (int i = 0; i < size; ++i)
       high += diagonal[i];
-    for (int turn = 0; turn < 40; ++turn)
+    for (int turn = 0; turn < 24; ++turn)
     {
       double const middle = 0.5 * (low + high);
       (isBelow(middle) ? high : low) = middle;
@@ -121,7 +121,7 @@ struct Patch
     return sum;
   }
 
-  /// omega^2 / (4 c^2) of its largest frequency, by a Lanczos iteration (Parlett, The symmetric eigenvalue problem,
+  /// omega^2 / (4 c^2) of its largest frequency, by a Lanczos iteration (Parlett, The Symmetric Eigenvalue Problem,
   /// chapter 13) from the strain that the first pair resists most: from below.
   KOKKOS_INLINE_FUNCTION double largestSquare() const
   {

@@ -14,6 +14,7 @@ namespace
 {
 
 constexpr double no_viscosity = 0.0;
+constexpr double allowed = 1.005; // of the square of what stays at its place
 
 /// What of a unit cell lies on the inner side of lines.
 Region partOfCell(int i, int j, std::vector<Plane2> const &lines)
@@ -160,14 +161,14 @@ std::vector<BoundaryKind> axisOnTheLeft()
 
 } // namespace
 
-TEST(EdgeStepLimit, TriangleOfFluidAlone_hasItsExactStep)
+TEST(EdgeStepLimit, TriangleOfFluidAlone_hasItsExactStepButForTheMargin)
 {
   // Straight edges: gradients (-1, -1), (1, 0), (0, 0), (0, 1) of the corners, a quarter of the mass at each of them:
   // omega^2 = 4 c^2 sum_I |B_I|^2 = 16 c^2.
   double const root = std::sqrt(0.5), c = speedOf(fluid());
   CutBody body(3, {{{-1.0, 0.0}, -1.0}, {{0.0, -1.0}, -1.0}, {{root, root}, root * 3.0}}, fluid());
   EXPECT_NEAR(body.stableStep(), 0.5 / c, 1e-6);
-  EXPECT_NEAR(body.limit().dt, 0.5 / c, 1e-12);
+  EXPECT_NEAR(body.limit().dt, 0.5 / c / std::sqrt(allowed), 1e-7);
   EXPECT_EQ(body.limit().cell, 4);
   EXPECT_EQ(body.limit().material, 0);
 }
@@ -176,8 +177,8 @@ TEST(EdgeStepLimit, Viscosity_entersAsInPureCells)
 {
   double const root = std::sqrt(0.5);
   CutBody body(3, {{{-1.0, 0.0}, -1.0}, {{0.0, -1.0}, -1.0}, {{root, root}, root * 3.0}}, fluid(), 0.06);
-  double const c = speedOf(fluid()), lambda = 4.0, q = 0.06 * c * lambda;
-  EXPECT_NEAR(body.limit().dt, 1.0 / (q + std::sqrt(q * q + c * c * lambda)), 1e-12);
+  double const c = speedOf(fluid()), lambda = 4.0 * allowed, q = 0.06 * c * lambda;
+  EXPECT_NEAR(body.limit().dt, 1.0 / (q + std::sqrt(q * q + c * c * lambda)), 1e-7);
 }
 
 TEST(EdgeStepLimit, ObliqueBodies_areNearWhatTheirLargestFrequencyAllows)
@@ -188,7 +189,7 @@ TEST(EdgeStepLimit, ObliqueBodies_areNearWhatTheirLargestFrequencyAllows)
       {
         CutBody body(8, squareOf({4.13, 3.9}, side, angle), material);
         double const limit = body.limit().dt, stable = body.stableStep();
-        EXPECT_GE(stable, 0.996 * limit) << "angle " << angle << ", side " << side;
+        EXPECT_GE(stable, 0.999 * limit) << "angle " << angle << ", side " << side;
         EXPECT_LE(stable, 1.01 * limit) << "angle " << angle << ", side " << side;
       }
 }
@@ -242,14 +243,14 @@ TEST(EdgeStepLimit, PartOfACellBetweenSlipWalls_isABarOfOneDimension)
   EXPECT_EQ(free.limit(0.99 / speedOf(elastic())).cell, 0);
 }
 
-TEST(EdgeStepLimit, WholeCellOfFluidAlone_hasItsExactStep)
+TEST(EdgeStepLimit, WholeCellOfFluidAlone_hasItsExactStepButForTheMargin)
 {
   CutBody body(3, rectangle({1.0, 1.0}, {2.0, 2.0}), fluid());
   double const c = speedOf(fluid());
   EXPECT_EQ(body.limit().cell, -1); // the options' Courant number is below what any whole cell asks for
   body.s.options.courant = 0.9;
   EXPECT_NEAR(body.stableStep(), std::sqrt(0.5) / c, 1e-6);
-  EXPECT_NEAR(body.limit().dt, std::sqrt(0.5) / c, 1e-12);
+  EXPECT_NEAR(body.limit().dt, std::sqrt(0.5 / allowed) / c, 1e-7);
   EXPECT_EQ(body.limit().cell, 4);
   EXPECT_EQ(body.limit(0.68 / c).cell, -1);
 }
@@ -263,7 +264,7 @@ TEST(EdgeStepLimit, WholeCellsAtFreeEdges_areNearWhatTheirLargestFrequencyAllows
       CutBody body(8, rectangle({1.0, 1.0}, Vector2{1.0, 1.0} + size), material);
       body.s.options.courant = 0.9;
       double const limit = body.limit().dt, stable = body.stableStep();
-      EXPECT_GE(stable, 0.996 * limit) << size[0] << " x " << size[1];
+      EXPECT_GE(stable, 0.999 * limit) << size[0] << " x " << size[1];
       EXPECT_LE(stable, 1.01 * limit) << size[0] << " x " << size[1];
     }
 }
@@ -278,7 +279,7 @@ TEST(EdgeStepLimit, WholeCellsAboutAnAxis_feelTheHoop)
                      Geometry::Axisymmetric, axisOnTheLeft());
         body.s.options.courant = 0.9;
         double const limit = body.limit().dt, stable = body.stableStep();
-        EXPECT_GE(stable, 0.996 * limit) << inner << ": " << size[0] << " x " << size[1];
+        EXPECT_GE(stable, 0.999 * limit) << inner << ": " << size[0] << " x " << size[1];
         EXPECT_LE(stable, 1.01 * limit) << inner << ": " << size[0] << " x " << size[1];
       }
 }
@@ -294,7 +295,7 @@ TEST(EdgeStepLimit, BodiesThatFillTheMesh_areFreeAtItsSides)
                                                   : axisOnTheLeft());
         body.s.options.courant = 0.9;
         double const limit = body.limit().dt, stable = body.stableStep();
-        EXPECT_GE(stable, 0.996 * limit) << n;
+        EXPECT_GE(stable, 0.999 * limit) << n;
         EXPECT_LE(stable, 1.01 * limit) << n;
       }
 }
