@@ -184,7 +184,7 @@ private:
     int const most = rubs_ && n_ <= many_unknowns_ ? most_inside_ : max_iterations_;
     iterations_ += interior.solve(enough_, std::min(most, max_iterations_ - iterations_), damped);
     begin(interior.impulses());
-    exchangeActiveSets(rubs_, max_iterations_, rubs_ ? patient_ : hasty_);
+    exchangeActiveSets(rubs_, max_iterations_, rubs_ ? near_ : hasty_);
     keepIfBetter(before, least);
   }
 
@@ -453,10 +453,10 @@ private:
   std::vector<char> free_;
   Vector slides_;
   static constexpr int undamped_rounds_ = 4, patient_rounds_ = 30;
-  static constexpr int patient_iterations_ = 20, most_coupled_ = 14, most_before_anew_ = 40, most_anew_ = 4;
+  static constexpr int patient_iterations_ = 20, most_coupled_ = 14, most_before_anew_ = 55, most_anew_ = 4;
   static constexpr int few_unknowns_ = 100, many_unknowns_ = 1000;
   static constexpr int most_inside_ = 25; // iterations of a path inside the bounds with friction, up to many unknowns
-  static constexpr int patient_ = 6, hasty_ = 2, brief_ = 1; // sets that need not halve the residual
+  static constexpr int patient_ = 6, near_ = 4, hasty_ = 2, brief_ = 1; // sets that need not halve the residual
   double const safe_step_;
   Vector least_shift_;
   double start_ = 0.0, shift_ = 0.0;
