@@ -40,17 +40,20 @@ public:
       beginAt(start);
     exchangeActiveSets(false, iterations_ + patient_iterations_, rubs_ ? brief_ : patient_);
     if (rubs_ && !reached())
-      exchangeActiveSets(true, iterations_ + most_coupled_);
+      exchangeActiveSets(true, iterations_ + most_coupled_, coupled_);
     // Few unknowns are sooner dropped one by one.
     bool const inside_first = many_change_ || n_ > few_unknowns_;
     if (!reached() && inside_first)
       followInterior();
     std::vector<ImpulseBounds> before = bounds_;
+    double last = std::numeric_limits<double>::infinity();
     for (int round = 0; iterations_ < max_iterations_; ++round)
     {
       if (reached())
         break;
-      if (rubs_ && times_anew_ < most_anew_ && iterations_ >= (times_anew_ + 1) * most_before_anew_)
+      bool const gains = violation() < 0.5 * last;
+      last = violation();
+      if (rubs_ && !gains && times_anew_ < most_anew_ && iterations_ >= (times_anew_ + 1) * most_before_anew_)
       {
         beginAnew();
         if (reached())
@@ -184,7 +187,7 @@ private:
     int const most = rubs_ && n_ <= many_unknowns_ ? most_inside_ : max_iterations_;
     iterations_ += interior.solve(enough_, std::min(most, max_iterations_ - iterations_), damped);
     begin(interior.impulses());
-    exchangeActiveSets(rubs_, max_iterations_, rubs_ ? near_ : hasty_);
+    exchangeActiveSets(rubs_, max_iterations_, rubs_ ? coupled_ : hasty_);
     keepIfBetter(before, least);
   }
 
@@ -196,7 +199,7 @@ private:
     Vector const before = x_;
     double const least = violation();
     begin(Vector(n_, 0.0));
-    exchangeActiveSets(true, iterations_ + most_coupled_);
+    exchangeActiveSets(true, iterations_ + most_coupled_, coupled_);
     keepIfBetter(before, least);
   }
 
@@ -229,7 +232,7 @@ private:
   /// impulses go with them.
   /// \param until   Iterations of all steps at which it ends.
   /// \param patient Sets in a row that need not halve the residual, where few unknowns change places.
-  void exchangeActiveSets(bool coupled, int until, int patient = patient_)
+  void exchangeActiveSets(bool coupled, int until, int patient)
   {
     constexpr int few = 8, most_thrown = 3;
     constexpr double far = 10.0;
@@ -265,6 +268,7 @@ private:
         x_[i] += free_[i] || slides_[i] != 0.0 ? step_[i] : 0.0;
         slope[i] = g_[i] + image_[i];
       }
+      putAtBounds();
       current_ = false;
     }
     current_ = current_ && x_ == best;
@@ -293,6 +297,19 @@ private:
       setUnknown(i, free ? point[i] : follows ? slides_[i] * point[along] : limit.clip(to));
     }
     return changed;
+  }
+
+  /// Sliding impulses at the bounds that follow from those along n, to the last digit: one digit inside of them, all
+  /// of their velocity would count as violation.
+  void putAtBounds()
+  {
+    for (int i = 0; i < n_; ++i)
+    {
+      if (slides_[i] == 0.0 || !(x_[problem_.normal_of[i]] > 0.0))
+        continue;
+      ImpulseBounds const bounds = problem_.frictionBounds(i, x_);
+      x_[i] = slides_[i] > 0.0 ? bounds.high : bounds.low;
+    }
   }
 
   double violation() const
@@ -456,7 +473,7 @@ private:
   static constexpr int patient_iterations_ = 20, most_coupled_ = 14, most_before_anew_ = 55, most_anew_ = 4;
   static constexpr int few_unknowns_ = 100, many_unknowns_ = 1000;
   static constexpr int most_inside_ = 25; // iterations of a path inside the bounds with friction, up to many unknowns
-  static constexpr int patient_ = 6, near_ = 4, hasty_ = 2, brief_ = 1; // sets that need not halve the residual
+  static constexpr int patient_ = 6, coupled_ = 4, hasty_ = 2, brief_ = 1; // sets that need not halve the residual
   double const safe_step_;
   Vector least_shift_;
   double start_ = 0.0, shift_ = 0.0;
