@@ -280,6 +280,7 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
                 "\"contour\" is by intersection alone; expected: numerics/remap/swept_faces false");
   deck.remap.merge_below = remap.get<double>("merge_below");
   deck.remap.close_void_below = remap.get<double>("close_void_below");
+  deck.remap.close_void_beside_gas = remap.get<double>("close_void_beside_gas");
   deck.remap.part_overlaps = remap.get<bool>("part_overlaps");
   deck.remap.return_kinetic_defect = remap.get<bool>("return_kinetic_defect");
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_EquationOfState.hpp>
 #include <detail/Harmos_Acceptors.hpp>
 
 namespace Harmos
@@ -12,6 +13,17 @@ namespace
 constexpr double full_tolerance = 1e-12; // of the cell: sums of fractions this near to one are made one
 constexpr double least_share = 1e-10;    // of the cell: what deformable material keeps, at most, under a rigid body
 constexpr double most_volume = 2.0;      // of the cell: what a pair's mass times its specific volume may be
+constexpr double most_gas_change = 0.1;  // of the gas in a cell: what it takes of overlap and void in one remap
+
+/// Whether a material is soft against its pressure: its bulk modulus is at most ten times that.
+KOKKOS_INLINE_FUNCTION bool isGas(Material const &law, double specific_volume, double internal_energy)
+{
+  constexpr double most_stiffness = 10.0;
+  if (law.rigid_body >= 0 || law.strength != StrengthKind::None)
+    return false;
+  EosState<double> const eos = equationOfState(law, specific_volume, internal_energy);
+  return eos.pressure > 0.0 && eos.sound_speed_squared <= most_stiffness * eos.pressure * specific_volume;
+}
 
 struct FinishFunctor
 {
@@ -41,6 +53,30 @@ struct FinishFunctor
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1) && !any; ++j)
       any = hadVoid(in.mesh.cell_neighbour.item(j));
     return any;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool hadGas(int cell) const
+  {
+    for (int pair = in.pairs.offset(cell); pair < in.pairs.offset(cell + 1); ++pair)
+      if (isGas(in.materials(in.pairs.material(pair)), stage.record(pair, SpecificVolume),
+                stage.record(pair, InternalEnergy)))
+        return true;
+    return false;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool gasAround(int cell) const
+  {
+    bool any = hadGas(cell);
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1) && !any; ++j)
+      any = hadGas(in.mesh.cell_neighbour.item(j));
+    return any;
+  }
+
+  /// Whether candidate c is a gas, by its record.
+  KOKKOS_INLINE_FUNCTION bool isGasNow(int c) const
+  {
+    return kept(c) && isGas(in.materials(acceptors.material(c)), acceptors.record(c, SpecificVolume),
+                            acceptors.record(c, InternalEnergy));
   }
 
   KOKKOS_INLINE_FUNCTION void setVerbatim(int index, int cell) const
@@ -129,6 +165,25 @@ struct FinishFunctor
       acceptors.record(largest, VolumeFraction) = 1.0 - others;
   }
 
+  KOKKOS_INLINE_FUNCTION double gasVolume(int index) const
+  {
+    double volume = 0.0;
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
+      volume += isGasNow(c) ? acceptors.sum(c, VolumeSum) : 0.0;
+    return volume;
+  }
+
+  /// Void that a gas fills, whatever is around: in its own cells what it can take, beside them what a merged fragment
+  /// of it may have left.
+  KOKKOS_INLINE_FUNCTION double mostFilledByGas(int index, int cell) const
+  {
+    double const cell_volume = in.mesh.cell_volume(cell), gas = gasVolume(index);
+    if (gas > 0.0)
+      return Math::min(in.options.close_void_beside_gas * cell_volume, most_gas_change * gas);
+    double const most = Math::min(in.options.close_void_beside_gas, in.options.merge_below);
+    return most > 0.0 && gasAround(cell) ? most * cell_volume : 0.0;
+  }
+
   /// The volume that the deformable materials get, and whether the cell is full then.
   KOKKOS_INLINE_FUNCTION double share(int index, int cell, double deformable, double rigid, bool &full) const
   {
@@ -146,7 +201,8 @@ struct FinishFunctor
       return available;
     }
     bool const spurious = !voidAround(cell);
-    if (spurious && deformable > 0.0 && gap < in.options.close_void_below * cell_volume)
+    bool const thin = spurious && deformable > 0.0 && gap < in.options.close_void_below * cell_volume;
+    if (thin || (deformable > 0.0 && gap < mostFilledByGas(index, cell)))
     {
       if (owned)
         bookings(index, BookClosed) += gap;
@@ -169,6 +225,28 @@ struct FinishFunctor
     acceptors.record(c, SpecificVolume) = largest;
     if (in.mesh.cell_depth(cell) == 0)
       bookings(index, BookBounded) += 1.0;
+  }
+
+  /// Volume fractions of the deformable materials of a cell that fill `volume` of it. Of what they lack or have too
+  /// much a gas takes its share, density included; the rest they share by volume, and keep their densities.
+  KOKKOS_INLINE_FUNCTION void setFractions(int index, int cell, double deformable, double volume) const
+  {
+    double const cell_volume = in.mesh.cell_volume(cell);
+    double gas = 0.0, taken = 0.0;
+    if (Math::fabs(volume - deformable) > full_tolerance * cell_volume)
+    {
+      gas = gasVolume(index);
+      taken = Math::clamp(volume - deformable, -most_gas_change * gas, most_gas_change * gas);
+    }
+    double const per_volume = deformable > 0.0 ? volume / ((deformable + taken) * cell_volume) : 0.0;
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
+    {
+      if (!kept(c) || in.isRigid(acceptors.material(c)))
+        continue;
+      double const grown = taken != 0.0 && isGasNow(c) ? 1.0 + taken / gas : 1.0;
+      acceptors.record(c, VolumeFraction) = grown * acceptors.sum(c, VolumeSum) * per_volume;
+      acceptors.record(c, SpecificVolume) *= grown;
+    }
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(int index) const
@@ -199,10 +277,7 @@ struct FinishFunctor
     }
     bool full;
     double const volume = share(index, cell, deformable, rigid, full);
-    double const per_volume = deformable > 0.0 ? volume / (deformable * cell_volume) : 0.0;
-    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
-      if (kept(c) && !in.isRigid(acceptors.material(c)))
-        acceptors.record(c, VolumeFraction) = acceptors.sum(c, VolumeSum) * per_volume;
+    setFractions(index, cell, deformable, volume);
     if (full)
       makeFull(index);
   }
