@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Slivers neither shorten the time step nor blow up; the stable Courant number of xfem is that of single."""
 import tempfile
+from math import pi
 
 from harness import ROOT, check, clean, harmos, run
 from contact_iterations import iterations_of_strip
@@ -144,17 +145,18 @@ def test_gases_rest_at_each_others_corners():
                 "boundaries": "{}", "materials": f"{{air: {{eos: ideal gas, density: 1.2, gamma: 1.4}}, other: {{{inner}}}}}",
                 "bodies": "{gas: {material: air, shape: rectangle, center: [0.2, 0.2], size: [1.6, 1.6], pressure: 1.0e5}, "
                           f"other: {{material: other, shape: {shape}, pressure: 1.0e5, cut: true}}}}",
-                "mesh/x/cells": 40, "mesh/y/cells": 40, "run/end_time": 5e-3})
+                "mesh/x/cells": 40, "mesh/y/cells": 40, "run/end_time": 1e-2})
             check(f"{inner}, {shape}, in air: kinetic over internal energy", max(r["kinetic_energy"]) / r.first("gas.internal_energy"), 1e-15)
             clean(r)
 
 
 def test_air_stays_where_it_is_over_a_block_that_begins_to_float():
-    # Void that opened between air and wood was held open, up to 0.005 of a cell, and air ran along it: 0.26 to 2.4 J/m. Now at most 0.013.
+    # Void that opened between air and wood was held open, up to 0.005 of a cell, and air ran along it: 0.26 to 2.4 J/m; then, until air
+    # filled what opens, 3e-4 to 0.17. Now at most 4.3e-4.
     # The last place has its sides on cell faces: films of air that rays could not pass gave 21 J/m there.
     for center in "[0.307, 0.437]", "[0.311, 0.433]", "[0.318, 0.4355]", "[0.3, 0.43]":
         r = harmos(ROOT / "test/verification/decks/floating_block.yaml", {"bodies/block/center": center})
-        check(f"block at {center}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), 0.1)
+        check(f"block at {center}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), 2e-3)
         check("energy ledger", r.summary["energy_error"], 1e-10)
         clean(r)
 
@@ -220,14 +222,31 @@ def test_gas_that_is_squeezed_to_nothing_gains_no_energy():
         clean(r)
 
 
+def test_a_disc_sets_no_more_air_in_motion_than_it_displaces():
+    # In an unbounded fluid rho pi a^2 V^2 / 2. Voids of 1e-8 of a cell and more, which nothing closed, gave 1.5 and 3 J/m after 10 and 20 ms,
+    # whatever the velocity, and overlaps took a hundredth of the disc's volume.
+    for speed, end_time in ((0.001, 1e-2), (0.5, 1e-2), (5.0, 2e-2)):
+        r = harmos(ROOT / "test/verification/decks/gas_in_a_box.yaml", {
+            "boundaries": "{}", "mesh/x": "{from: 0.0, to: 1.0, cells: 40}", "mesh/y": "{from: 0.0, to: 1.0, cells: 40}",
+            "materials/steel/sound_speed": 150.0, "materials/steel/shear_modulus": 6e7,
+            "bodies": "{gas: {material: air, shape: rectangle, center: [0.5, 0.5], size: [1.0, 1.0], pressure: 1.0e5}, box: {material: steel, "
+                      f"shape: disc, center: [0.513, 0.6], radius: 0.1, pressure: 1.0e5, cut: true, velocity: [0.0, {-speed}]}}}}",
+            "run/end_time": end_time})
+        check(f"{speed} m/s: kinetic energy of the air over what an unbounded fluid has",
+              max(r["gas.kinetic_energy"]) / (0.5 * 1.2 * pi * 0.1**2 * speed**2), 4.0)
+        check(f"{speed} m/s: volume of the disc, off", abs(r.last("box.volume") / r.first("box.volume") - 1.0), 1e-3)
+        clean(r)
+
+
 def test_a_box_that_flies_keeps_its_gas():
-    # 0.50 and 1.24 m2 of gas in the end before rows beside fluids left nothing of their pressure, of 0.15.
+    # 0.50 and 1.24 m2 of gas in the end before rows beside fluids left nothing of their pressure, of 0.15. Until gas filled what opens
+    # its kinetic energy was off by 1.5e-2.
     for cells in 16, 32:
         r = harmos(ROOT / "test/verification/decks/gas_in_a_box.yaml", {
             "bodies/box/angle": 25.0, "bodies/gas/angle": 25.0, "bodies/box/velocity": "[50.0, 30.0]", "bodies/gas/velocity": "[50.0, 30.0]",
             "mesh/x/cells": cells, "mesh/y/cells": cells, "run/end_time": 4e-3})
-        check(f"{cells} cells: volume of the gas, off", abs(r.last("gas.volume") / r.first("gas.volume") - 1.0), 2e-3)
-        check(f"{cells} cells: kinetic energy of the gas, off", max(abs(e / r.first("gas.kinetic_energy") - 1.0) for e in r["gas.kinetic_energy"]), 0.02)
+        check(f"{cells} cells: volume of the gas, off", abs(r.last("gas.volume") / r.first("gas.volume") - 1.0), 1e-3)
+        check(f"{cells} cells: kinetic energy of the gas, off", max(abs(e / r.first("gas.kinetic_energy") - 1.0) for e in r["gas.kinetic_energy"]), 1e-3)
         clean(r)
 
 

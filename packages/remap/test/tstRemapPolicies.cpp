@@ -14,6 +14,31 @@ double one(int, Vector2 const &)
   return 1.0;
 }
 
+/// An elastic body (0) up to x = 0.375 on a 4 x 1 mesh, a material of a gas's law (1) beyond it, its pressure as given;
+/// the body's side moves by `by`.
+Scene bodyBesideGas(double by, double sound_speed = 0.0)
+{
+  std::vector<Material> laws = twoLaws();
+  laws[1].strength = StrengthKind::None;
+  laws[1].eos = sound_speed > 0.0 ? EosKind::Stiffened : EosKind::IdealGas;
+  laws[1].sound_speed0 = sound_speed;
+  laws[1].density0 = 0.9999;                         // slightly compressed
+  laws[1].gruneisen = sound_speed > 0.0 ? 0.0 : 1.4; // of an ideal gas: gamma
+  Scene scene(4, 1, 0.0, laws);
+  scene.paint({halfPlane(0, {0.375, 0.0}, 0.0), rest(1)}, one, one);
+  scene.move(
+      [=](int material, Vector2 const &x) {
+        return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{by, 0.0} : Vector2{0.0, 0.0};
+      });
+  return scene;
+}
+
+/// Of the pair of a cell, after a remap.
+double fieldOf(RemapResult const &result, int cell, int material, PairField field)
+{
+  return result.state.record(result.pairs.find(cell, material), field);
+}
+
 double leastFraction(RemapResult const &result)
 {
   double least = 1.0;
@@ -134,6 +159,56 @@ TEST(Policies, spuriousGap_isClosedWhenSmallAndBookedWhenLarge)
     EXPECT_NEAR(scene.report.closed_volume, small ? gap : 0.0, 1e-14);
     EXPECT_NEAR(scene.report.void_volume, small ? 0.0 : gap, 1e-14);
     EXPECT_EQ(scene.report.overlap_volume, 0.0);
+  }
+}
+
+TEST(Policies, gas_takesWhatABodyLeavesOrWants)
+{
+  constexpr double cell = 0.25, half = 0.125, shared = 1e-5 * cell;
+  for (double const by : {-1e-3, -1e-5, -1e-6, 1e-6, 1e-5, 1e-3, 0.01})
+  {
+    Scene scene = bodyBesideGas(by);
+    double const before = scene.state.record(scene.pairs.find(1, 1), SpecificVolume);
+    RemapResult const result = scene.remapped();
+    double const taken = std::copysign(std::max(std::fabs(by) - shared, 0.0), -by);
+    double const rest = cell / (cell + by + taken); // what all share
+    EXPECT_NEAR(fieldOf(result, 1, 0, VolumeFraction), rest * (half + by) / cell, 1e-14) << by;
+    EXPECT_NEAR(fieldOf(result, 1, 1, VolumeFraction), rest * (half + taken) / cell, 1e-14) << by;
+    EXPECT_NEAR(fieldOf(result, 1, 1, SpecificVolume), before * (half + taken) / half, 1e-14) << by;
+    EXPECT_NEAR(scene.report.closed_volume, std::max(-by, 0.0), 1e-14);
+    EXPECT_EQ(scene.report.void_volume, 0.0);
+    Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
+    EXPECT_NEAR(t.mass, 1.0, 1e-15);
+    EXPECT_NEAR(t.internal, 1.0, 1e-14);
+  }
+}
+
+TEST(Policies, gas_takesNoMoreThanATenthOfIt)
+{
+  Scene opened = bodyBesideGas(-1e-3);
+  opened.options.close_void_beside_gas = 3e-3; // 7.5e-4 of the volume
+  RemapResult const result = opened.remapped();
+  EXPECT_EQ(opened.report.closed_volume, 0.0);
+  EXPECT_NEAR(opened.report.void_volume, 1e-3, 1e-14);
+  EXPECT_NEAR(fieldOf(result, 1, 1, VolumeFraction), 0.5, 1e-14);
+
+  Scene pressed = bodyBesideGas(0.02);
+  double const before = pressed.state.record(pressed.pairs.find(1, 1), SpecificVolume);
+  RemapResult const squeezed = pressed.remapped();
+  EXPECT_NEAR(fieldOf(squeezed, 1, 1, SpecificVolume), 0.9 * before, 1e-14);
+  EXPECT_NEAR(largestSumOfFractions(pressed.mesh, squeezed), 1.0, 1e-15);
+  EXPECT_NEAR(fieldOf(squeezed, 1, 1, VolumeFraction), 0.5 * 0.9 / (1.0 + 0.08 - 0.05), 1e-14);
+}
+
+TEST(Policies, liquid_keepsItsDensity)
+{
+  for (double const by : {-1e-3, 0.01})
+  {
+    Scene scene = bodyBesideGas(by, 1500.0);
+    double const before = scene.state.record(scene.pairs.find(1, 1), SpecificVolume);
+    RemapResult const result = scene.remapped();
+    EXPECT_EQ(fieldOf(result, 1, 1, SpecificVolume), before);
+    EXPECT_EQ(scene.report.closed_volume, 0.0);
   }
 }
 
