@@ -281,7 +281,8 @@ void addNumerics(ParameterList &list)
   add(m, "close_void_below", remap.close_void_below, number(between(0.0, 0.01)),
       "spurious void below this part of a cell is closed");
   add(m, "close_void_beside_gas", remap.close_void_beside_gas, number(between(0.0, 0.1)),
-      "void below this part of a cell, and a tenth of the gas there, is filled by the gas; 0: never");
+      "a gas that is slow against sound fills void below this part of a cell (0.01) and a tenth of the gas there, and "
+      "gives way to overlaps as far; 0: never");
   add(m, "part_overlaps", remap.part_overlaps, rulesOf(KeyType::Bool),
       "what moved regions have in common of bodies that have flowed (plastic strain above 0.1) and pass each other is "
       "divided between them before the remap");

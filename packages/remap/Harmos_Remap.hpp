@@ -37,13 +37,14 @@ struct RemapOptions
   RemapHessian hessian = RemapHessian::LeastSquares; // order 3
   double merge_below = 1e-6;      // fragments below this volume fraction merge with same-material neighbours; 0: never
   double close_void_below = 1e-8; // spurious void below this part of a cell, with no void around, is closed
-  double close_void_beside_gas = 0.01; // void that a gas fills, of a cell: no more than a tenth of the gas there
-  bool swept_faces = true;             // pure regions by swept faces; false: intersection everywhere
-  bool return_kinetic_defect = false;  // kinetic energy lost by the remap becomes internal energy, pair by pair; not
-                                       // where damage is tracked, which is carried in its place
-  double shortest_bent_edge = 0.1;     // of the cell size; edges inside cells below it stay straight (bendOf)
-  bool part_overlaps = true;           // what moved regions of bodies that pass each other have in common is divided
-  bool measure_overlap = false;        // RemapReport::moved_overlap, remapped_overlap; changes nothing else
+  double close_void_beside_gas = 0.0; // void below this part of a cell (and a tenth of the gas there) that a gas
+                                      // fills, which then gives way to overlaps too; 0: never
+  bool swept_faces = true;            // pure regions by swept faces; false: intersection everywhere
+  bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
+                                      // where damage is tracked, which is carried in its place
+  double shortest_bent_edge = 0.1;    // of the cell size; edges inside cells below it stay straight (bendOf)
+  bool part_overlaps = true;          // what moved regions of bodies that pass each other have in common is divided
+  bool measure_overlap = false;       // RemapReport::moved_overlap, remapped_overlap; changes nothing else
 };
 
 /// What the moved regions of different materials have in common, polygon by polygon and whatever void is left beside

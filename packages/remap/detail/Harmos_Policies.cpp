@@ -178,6 +178,8 @@ struct FinishFunctor
   /// of it may have left.
   KOKKOS_INLINE_FUNCTION double mostFilledByGas(int index, int cell) const
   {
+    if (in.options.close_void_beside_gas == 0.0)
+      return 0.0;
     double const cell_volume = in.mesh.cell_volume(cell), gas = gasVolume(index);
     if (gas > 0.0)
       return Math::min(in.options.close_void_beside_gas * cell_volume, most_gas_change * gas);
@@ -237,7 +239,7 @@ struct FinishFunctor
     double const cell_volume = in.mesh.cell_volume(cell);
     double const gap = volume - deformable, of_gas = Math::fabs(gap) - shared_by_all * cell_volume;
     double gas = 0.0, taken = 0.0;
-    if (of_gas > 0.0)
+    if (of_gas > 0.0 && in.options.close_void_beside_gas > 0.0)
     {
       gas = gasVolume(index);
       taken = (gap > 0.0 ? 1.0 : -1.0) * Math::min(of_gas, most_gas_change * gas);

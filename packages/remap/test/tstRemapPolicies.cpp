@@ -25,6 +25,7 @@ Scene bodyBesideGas(double by, double sound_speed = 0.0)
   laws[1].density0 = 0.9999;                         // slightly compressed
   laws[1].gruneisen = sound_speed > 0.0 ? 0.0 : 1.4; // of an ideal gas: gamma
   Scene scene(4, 1, 0.0, laws);
+  scene.options.close_void_beside_gas = 0.01;
   scene.paint({halfPlane(0, {0.375, 0.0}, 0.0), rest(1)}, one, one);
   scene.move(
       [=](int material, Vector2 const &x) {
@@ -198,6 +199,19 @@ TEST(Policies, gas_takesNoMoreThanATenthOfIt)
   EXPECT_NEAR(fieldOf(squeezed, 1, 1, SpecificVolume), 0.9 * before, 1e-14);
   EXPECT_NEAR(largestSumOfFractions(pressed.mesh, squeezed), 1.0, 1e-15);
   EXPECT_NEAR(fieldOf(squeezed, 1, 1, VolumeFraction), 0.5 * 0.9 / (1.0 + 0.08 - 0.05), 1e-14);
+}
+
+TEST(Policies, gasThatIsNotAskedTo_takesNothing)
+{
+  for (double const by : {-1e-3, 0.01})
+  {
+    Scene scene = bodyBesideGas(by);
+    scene.options.close_void_beside_gas = 0.0;
+    double const before = scene.state.record(scene.pairs.find(1, 1), SpecificVolume);
+    RemapResult const result = scene.remapped();
+    EXPECT_EQ(fieldOf(result, 1, 1, SpecificVolume), before);
+    EXPECT_EQ(scene.report.closed_volume, 0.0);
+  }
 }
 
 TEST(Policies, liquid_keepsItsDensity)
