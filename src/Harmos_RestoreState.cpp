@@ -136,6 +136,9 @@ void restoreState(Run &run)
   s.cycle = scalars.cycle;
   s.dt = scalars.dt;
   s.last_dt = scalars.last_dt;
+  for (std::size_t i = scalars.warnings.size(); i-- > 0;)
+    if (std::find(run.warnings.begin(), run.warnings.end(), scalars.warnings[i]) == run.warnings.end())
+      run.warnings.insert(run.warnings.begin(), scalars.warnings[i]);
   run.ledger = Ledger::fromValues(arrayOf(scalars, "ledger"));
   restoreTracers(run, arrayOf(scalars, "tracers"));
   restoreBonds(run, arrayOf(scalars, "bond_tracers"), arrayOf(scalars, "bonds"));

@@ -103,8 +103,8 @@ MPI_Comm rawComm(Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
 } // namespace
 
 RunOutput::RunOutput(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm,
-                     OutputStart const &start)
-    : deck_(deck), directory_(options.directory), mpi_(rawComm(comm)), names_(fieldNames(deck)),
+                     OutputStart const &start, std::vector<std::string> const &warnings)
+    : deck_(deck), warnings_(warnings), directory_(options.directory), mpi_(rawComm(comm)), names_(fieldNames(deck)),
       all_names_(materialNames(deck)), history_due_(deck.output.history), fields_due_(deck.output.fields),
       checkpoint_due_(deck.output.checkpoint), history_(directory_ + "/history.csv", names_, comm->getRank() == 0,
                                                         tableStart(start), deck.remap.measure_overlap),
@@ -313,6 +313,7 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
     force.insert(force.end(), {static_cast<double>(f.key >> 32), static_cast<double>(f.key & 0xffffffffLL), f.normal,
                                f.tangential}); // a double holds 53 bits of a key
   scalars.arrays["contact_force"] = force;
+  scalars.warnings = warnings_;
   scalars.deck = deck_.yaml;
   scalars.version = version();
   last_checkpoint_ = writeCheckpoint(mpi_, directory_, scene.mesh, state.pairs, state.state, scalars);

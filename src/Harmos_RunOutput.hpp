@@ -59,8 +59,9 @@ struct OutputStart
 class RunOutput
 {
 public:
+  /// \param warnings Of the run, for checkpoints; read when one is written.
   RunOutput(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm,
-            OutputStart const &start);
+            OutputStart const &start, std::vector<std::string> const &warnings);
 
   /// What is due after a cycle (or before the first). Collective.
   void write(Scene const &scene, CycleState const &state, CycleReport const &report, Ledger &ledger, double wall,
@@ -79,6 +80,7 @@ private:
   std::string materialName(int material) const;
 
   Deck const &deck_;
+  std::vector<std::string> const &warnings_;
   std::string directory_;
   MPI_Comm mpi_;
   std::vector<std::string> names_;     // fields of the deck

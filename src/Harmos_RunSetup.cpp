@@ -205,7 +205,8 @@ void placeTracers(Run &run)
 void warn(Run &run, std::string const &text)
 {
   std::size_t const most = 100;
-  if (run.warnings.size() < most)
+  bool const told = std::find(run.warnings.begin(), run.warnings.end(), text) != run.warnings.end(); // before a restart
+  if (run.warnings.size() < most && !told)
     run.warnings.push_back(text);
   run.progress.message("warning: " + text);
 }

@@ -411,7 +411,7 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
     return Completed;
   }
   claimDirectory(run);
-  RunOutput output(deck, options, comm, run.start);
+  RunOutput output(deck, options, comm, run.start, run.warnings);
   try
   {
     ExitStatus const status = loop(run, output);

@@ -17,6 +17,7 @@ struct PlannedTraction
   KOKKOS_INLINE_FUNCTION bool any() const { return along != 0.0 || across != 0.0; }
 };
 
+/// Whether the ray of segment i meets something that touches it.
 KOKKOS_INLINE_FUNCTION bool touches(RowBuilder const &builder, int i)
 {
   RayHit const &hit = builder.hit(i);
@@ -236,11 +237,11 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
   constexpr int most = TractionFinder::most;
   int const count = builder.segments.count;
   View<RayHit *> const hit = work.unset<RayHit *>("Harmos::constrain::pressed_on", count);
-  RowBuilder const rows = builder;
   launchFor(
       "Harmos::constrain::findPressedOn", count, KOKKOS_LAMBDA(int i) {
-        bool const alone = rows.bearing.isPressed(rows.segment(i)) && planned(i).count == 0 && !touches(rows, i);
-        hit(i) = alone ? hitBeside(rows, i) : rows.hit(i);
+        bool const alone =
+            builder.bearing.isPressed(builder.segment(i)) && planned(i).count == 0 && !touches(builder, i);
+        hit(i) = alone ? hitBeside(builder, i) : builder.hit(i);
       });
   TractionFinder const finder{builder, planned, hit};
   View<PlannedTraction *[most]> const traction =

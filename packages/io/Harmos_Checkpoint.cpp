@@ -135,11 +135,11 @@ std::string writeCheckpoint(MPI_Comm comm, std::string const &directory, Mesh co
                             CellMaterialPairs const &pairs, PairState const &state, CheckpointScalars const &scalars)
 {
   std::string const path = checkpointName(directory, scalars.cycle);
-  std::string const temporary = path + ".tmp";
+  TemporaryFile const temporary(path);
   long long const num_cells = globalCount(comm, mesh.cell_global);
   long long const num_nodes = globalCount(comm, mesh.node_global);
   {
-    Hdf5File file = Hdf5File::create(comm, temporary);
+    Hdf5File file = Hdf5File::create(comm, temporary.name());
     file.writeAttribute("/", "format", checkpoint_format);
     file.writeAttribute("/", "cells", num_cells);
     file.writeAttribute("/", "nodes", num_nodes);
@@ -153,7 +153,7 @@ std::string writeCheckpoint(MPI_Comm comm, std::string const &directory, Mesh co
   MPI_Comm_rank(comm, &rank);
   if (rank == 0)
   {
-    publishFile(temporary, path);
+    temporary.publish();
     removeOthers(directory, scalars.cycle);
   }
   MPI_Barrier(comm);

@@ -26,6 +26,7 @@ struct CheckpointScalars
   std::vector<RigidBody> bodies;
   std::map<std::string, double> ledger;              // cumulative values of the history, and whatever steers the run
   std::map<std::string, std::vector<double>> arrays; // further global values (tracers, schedules)
+  std::vector<std::string> warnings;                 // of the run so far, one line each
   std::string deck;                                  // text
   std::string version;                               // of the program that wrote it
 };

@@ -114,6 +114,8 @@ CheckpointScalars readScalars(std::string const &path, Hdf5File const &file)
   scalars.deck = file.readText("/deck");
   scalars.version = file.readText("/version");
   scalars.material_names = splitLines(file.readText("/materials"));
+  if (file.exists("/warnings")) // not in those of version 0.1.0 before they were kept
+    scalars.warnings = splitLines(file.readText("/warnings"));
   scalars.bodies = unpackBodies(readShared(path, file, "/bodies", body_width));
   auto const names = splitLines(file.readText("/ledger_names"));
   auto const values = readShared(path, file, "/ledger", 1);
@@ -300,6 +302,7 @@ void writeScalars(Hdf5File &file, MPI_Comm comm, CheckpointScalars const &scalar
   file.writeText("/deck", scalars.deck);
   file.writeText("/version", scalars.version);
   file.writeText("/materials", joinLines(scalars.material_names));
+  file.writeText("/warnings", joinLines(scalars.warnings));
   writeShared(file, comm, "/bodies", packBodies(scalars.bodies), body_width);
   std::vector<std::string> names;
   std::vector<double> values;

@@ -184,14 +184,15 @@ void FieldOutput::write(long long cycle, double time, FieldSnapshot const &snaps
   frame.has_damage = snapshot.pairs.has_damage;
 
   std::string const stem = frameStem(frame.number), path = directory_ + '/' + stem + ".h5";
-  writeFieldFile(comm_, path + ".tmp", fields, frame, material_names_);
+  TemporaryFile const temporary(path);
+  writeFieldFile(comm_, temporary.name(), fields, frame, material_names_);
   if (options_.vtu)
     writeVtu(comm_, directory_, stem, fields.block.pairs);
   frames_.push_back(frame);
   MPI_Barrier(comm_);
   if (rank_ != 0)
     return;
-  publishFile(path + ".tmp", path);
+  temporary.publish();
   writeFileAtomically(directory_ + "/fields.xdmf", xdmfText(frames_));
   if (options_.vtu)
     writeFileAtomically(directory_ + "/fields.pvd", pvdText(directory_, frames_));

@@ -30,9 +30,9 @@ struct Summary
   double angular_momentum_drift = 0.0; // largest |L - L0| over the largest sum m |x| |v|: walls turn too
   long long unconverged_cycles = 0;
   long long broken_bonds = 0;
-  long long slowed_light_nodes = 0;    // over all cycles, moved with their pair
-  long long repeated_cycles = 0;       // times a cycle began anew with half the step
-  long long bounded_volumes = 0;       // pairs, over all cycles, whose specific volume the remap bounded
+  long long slowed_light_nodes = 0; // over all cycles, moved with their pair
+  long long repeated_cycles = 0;    // times a cycle began anew with half the step
+  long long bounded_volumes = 0;    // pairs, over all cycles, whose specific volume the remap bounded
   long long merged_fragments = 0;
   double closed_void_volume = 0.0;     // spurious void that was closed, over all cycles [m^2]
   long long greedy_cells = 0;          // mixed cells, over all cycles, of more than five components

@@ -87,6 +87,16 @@ def test_bonds_that_break_before_and_after_the_stop():
     clean(whole, part)
 
 
+def test_the_summary_has_the_warnings_from_before():
+    few = {"numerics/constraint/max_iterations": 1, "numerics/remap/order": 1}
+    part = harmos(BLOCKS, {**stop(few, 30), "output/checkpoint/at_end": "true"})
+    before = part.summary["warnings"]
+    assert any("multipliers stopped" in w for w in before) and any("without effect" in w for w in before), before
+    r = harmos(BLOCKS, stop(few, 31), directory=part.directory, extra=["--restart", str(part.directory)])
+    assert r.summary["warnings"] == before, r.summary["warnings"]
+    clean(r)
+
+
 def test_bonds_with_a_strength_are_not_made_by_a_restart():
     part = harmos(BLOCK, {**stop({}, 20), "output/checkpoint/at_end": "true"})
     good = ["--restart", str(newest_checkpoint(part.directory))]

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -22,17 +23,28 @@ namespace
 }
 } // namespace
 
-void publishFile(std::string const &temporary, std::string const &path)
+TemporaryFile::TemporaryFile(std::string const &path)
+    : path_(path), name_(path + ".tmp"), exceptions_(std::uncaught_exceptions())
 {
-  int const file = ::open(temporary.c_str(), O_RDONLY);
+}
+
+TemporaryFile::~TemporaryFile()
+{
+  if (std::uncaught_exceptions() > exceptions_)
+    ::unlink(name_.c_str());
+}
+
+void TemporaryFile::publish() const
+{
+  int const file = ::open(name_.c_str(), O_RDONLY);
   if (file < 0)
-    fail("cannot open", temporary);
+    fail("cannot open", name_);
   int const flushed = ::fsync(file);
   ::close(file);
   if (flushed != 0)
-    fail("cannot flush", temporary);
-  if (std::rename(temporary.c_str(), path.c_str()) != 0)
-    fail("cannot rename " + temporary + " to", path);
+    fail("cannot flush", name_);
+  if (std::rename(name_.c_str(), path_.c_str()) != 0)
+    fail("cannot rename " + name_ + " to", path_);
 }
 
 bool writeAll(int file, char const *data, std::size_t size)
@@ -65,9 +77,9 @@ void writeFile(std::string const &path, char const *data, std::size_t size)
 
 void writeFileAtomically(std::string const &path, std::string const &content)
 {
-  std::string const temporary = path + ".tmp";
-  writeFile(temporary, content.data(), content.size());
-  publishFile(temporary, path);
+  TemporaryFile const temporary(path);
+  writeFile(temporary.name(), content.data(), content.size());
+  temporary.publish();
 }
 
 std::string readWholeFile(std::string const &path)

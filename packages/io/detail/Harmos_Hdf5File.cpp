@@ -2,6 +2,11 @@
 #include <detail/Harmos_AtomicFile.hpp>
 #include <detail/Harmos_Hdf5File.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <stdexcept>
 
 #ifndef H5_HAVE_PARALLEL
@@ -80,6 +85,20 @@ std::string innermostError()
 /// Bytes by which the image of a file that one rank writes grows.
 constexpr std::size_t image_step = 1 << 20;
 
+/// Bytes that the library needs beside those of an object, and once.
+constexpr unsigned long long room_beside = 1024, room_once = 65536;
+
+/// The system's reason why a file cannot have so many bytes; 0: it has, or its file system cannot tell.
+int growFile(std::string const &path, unsigned long long bytes)
+{
+  int const file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0)
+    return errno;
+  int const reason = ::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  ::close(file);
+  return reason == EOPNOTSUPP || reason == ENOSYS ? 0 : reason;
+}
+
 } // namespace
 
 Hdf5File::Hdf5File(std::string path, hid_t file, Mode mode, MPI_Comm comm)
@@ -88,7 +107,8 @@ Hdf5File::Hdf5File(std::string path, hid_t file, Mode mode, MPI_Comm comm)
 }
 
 Hdf5File::Hdf5File(Hdf5File &&other) noexcept
-    : path_(std::move(other.path_)), file_(other.file_), mode_(other.mode_), comm_(other.comm_)
+    : path_(std::move(other.path_)), file_(other.file_), mode_(other.mode_), comm_(other.comm_),
+      reserved_(other.reserved_)
 {
   other.file_ = -1;
 }
@@ -118,6 +138,23 @@ void Hdf5File::check(bool good, std::string const &what)
       throw std::runtime_error("HDF5 file '" + path_ + "': another rank cannot " + what);
   }
   checkHere(good, what);
+}
+
+void Hdf5File::reserve(unsigned long long bytes)
+{
+  if (mode_ != Mode::Collective)
+    return;
+  reserved_ += bytes + (reserved_ == 0 ? room_once : room_beside);
+  int rank = 0, reason = 0;
+  MPI_Comm_rank(comm_, &rank);
+  if (rank == 0)
+    reason = growFile(path_, reserved_);
+  MPI_Bcast(&reason, 1, MPI_INT, 0, comm_);
+  if (reason == 0)
+    return;
+  file_ = -1; // to close it would write
+  throw std::runtime_error("HDF5 file '" + path_ + "': no room for " + std::to_string(reserved_) + " bytes (" +
+                           std::strerror(reason) + ")");
 }
 
 Hdf5File Hdf5File::create(MPI_Comm comm, std::string const &path)
@@ -166,6 +203,7 @@ void Hdf5File::close()
 
 void Hdf5File::createGroup(std::string const &name)
 {
+  reserve(0);
   Handle const group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   check(group >= 0, "create " + name);
 }
@@ -175,6 +213,7 @@ void Hdf5File::write(std::string const &name, std::vector<T> const &value, int w
 {
   if (total == 0)
     return;
+  reserve(static_cast<unsigned long long>(total) * static_cast<unsigned long long>(width) * sizeof(T));
   int const rank = width == 1 ? 1 : 2;
   hsize_t const shape[2] = {static_cast<hsize_t>(total), static_cast<hsize_t>(width)};
   hsize_t const start[2] = {static_cast<hsize_t>(first), 0};
@@ -202,6 +241,7 @@ void Hdf5File::write(std::string const &name, std::vector<T> const &value, int w
 template <class T>
 void Hdf5File::writeAttribute(std::string const &object, std::string const &name, T value)
 {
+  reserve(sizeof(T));
   Handle const space(H5Screate(H5S_SCALAR), H5Sclose);
   Handle const attribute(
       H5Acreate_by_name(file_, object.c_str(), name.c_str(), typeOf<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -211,6 +251,7 @@ void Hdf5File::writeAttribute(std::string const &object, std::string const &name
 
 void Hdf5File::writeText(std::string const &name, std::string const &text)
 {
+  reserve(text.size() + 1);
   Handle const type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, text.size() + 1);
   H5Tset_cset(type, H5T_CSET_UTF8);

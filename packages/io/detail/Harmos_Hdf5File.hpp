@@ -13,6 +13,10 @@ namespace Harmos
 
 /// An HDF5 file that all ranks of a communicator write together, or that one process reads by itself.
 ///
+/// Several ranks have room on the disk before they write: where it is full in the middle, a rank may miss the error of
+/// a collective write, and the library then waits for ever when it closes the file. (File systems that cannot reserve
+/// are taken as they are.)
+///
 /// Every function throws std::runtime_error with the file's name, the object and what failed. Types: double, int,
 /// long long, unsigned long long.
 class Hdf5File
@@ -65,6 +69,8 @@ private:
   };
   Hdf5File(std::string path, hid_t file, Mode mode, MPI_Comm comm);
   void writeImage();
+  /// Room for an object of so many bytes, beside what was asked for before. Collective.
+  void reserve(unsigned long long bytes);
   /// Collective where the file is written by several ranks: all throw when one has failed, none waits for it.
   void check(bool good, std::string const &what);
   void checkHere(bool good, std::string const &what) const;
@@ -73,6 +79,7 @@ private:
   hid_t file_ = -1;
   Mode mode_ = Mode::Read;
   MPI_Comm comm_ = MPI_COMM_SELF;
+  unsigned long long reserved_ = 0; // [bytes]
 };
 
 } // namespace Harmos

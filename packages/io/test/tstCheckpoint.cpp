@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputScene.hpp"
+#include "SmallDisk.hpp"
 #include "TestFolder.hpp"
 
 #include <Harmos_Checkpoint.hpp>
@@ -30,6 +31,7 @@ CheckpointScalars scalarsOf(long long cycle)
   s.bodies[1] = {1, RigidMotion::Free, false, 2.0, 3.0, {0.1, 0.2}, 0.3, {-0.0, 5.0}, 0.7};
   s.ledger = {{"contact_loss", 1e-300}, {"external_work", 0.1}};
   s.arrays = {{"tracers", {1.0, 2.5}}, {"empty", {}}};
+  s.warnings = {"cycle 3: something", "run/x: without effect"};
   s.deck = "mesh:\n  cells: [4, 3]\n" + std::string(100000, '#') + '\n';
   s.version = "0.1.0";
   return s;
@@ -108,6 +110,7 @@ TEST(Checkpoint, scalars_readBackExactly)
   EXPECT_EQ(got.material_names, want.material_names);
   EXPECT_EQ(got.ledger, want.ledger);
   EXPECT_EQ(got.arrays, want.arrays);
+  EXPECT_EQ(got.warnings, want.warnings);
   EXPECT_EQ(got.deck, want.deck);
   EXPECT_EQ(got.version, want.version);
   ASSERT_EQ(got.bodies.size(), 2u);
@@ -116,6 +119,25 @@ TEST(Checkpoint, scalars_readBackExactly)
   EXPECT_EQ(got.bodies[1].centre[1], 0.2);
   EXPECT_TRUE(std::signbit(got.bodies[1].velocity[0]));
   EXPECT_EQ(got.bodies[1].angular_velocity, 0.7);
+}
+
+TEST(Checkpoint, fullDisk_leavesWhatWasThere)
+{
+  auto const folder = freshFolder("checkpoint_full_disk");
+  OutputScene const scene = outputScene(MPI_COMM_WORLD, Partition::Blocks);
+  auto const write = [&](long long cycle)
+  { return writeCheckpoint(MPI_COMM_WORLD, folder, scene.mesh, scene.pairs, scene.state, scalarsOf(cycle)); };
+  auto const first = write(1);
+  std::string const error = errorOnSmallDisk(4096, [&] { write(2); });
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_NE(error.find("checkpoint_000000002.h5"), std::string::npos) << error;
+  EXPECT_EQ(newestCheckpoint(folder), first);
+  auto const files = std::filesystem::directory_iterator(folder);
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+  readCheckpointScalars(first);
+  MPI_Barrier(MPI_COMM_WORLD);
+  write(2);
+  EXPECT_EQ(readCheckpointScalars(newestCheckpoint(folder)).cycle, 2);
 }
 
 TEST(Checkpoint, lagrangian_movedNodesComeBack)
