@@ -94,7 +94,10 @@ int growFile(std::string const &path, unsigned long long bytes)
   int const file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0)
     return errno;
-  int const reason = ::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  int reason;
+  do // a signal to the run may come
+    reason = ::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  while (reason == EINTR);
   ::close(file);
   return reason == EOPNOTSUPP || reason == ENOSYS ? 0 : reason;
 }
