@@ -68,6 +68,39 @@ public:
     return partBehind(j, line, lines) - fraction_[j];
   }
 
+  /// The part of line l that lies in neighbour j, behind the other lines. \return Whether there is one.
+  KOKKOS_INLINE_FUNCTION bool chordIn(int j, Plane2 const *line, int lines, int l, Vector2 &begin, Vector2 &end) const
+  {
+    Vector2 const from = line[l].offset * line[l].normal, along = perpendicular(line[l].normal);
+    double low = -1e300, high = 1e300;
+    auto const keepBehind = [&](Plane2 const &plane)
+    {
+      double const rise = dot(plane.normal, along), room = -plane.distance(from);
+      if (rise > 0.0)
+        high = Math::min(high, room / rise);
+      else if (rise < 0.0)
+        low = Math::max(low, room / rise);
+      else if (room < 0.0)
+        high = -1e300;
+    };
+    int behind = 0;
+    for (int k = 0; k < 4; ++k)
+      behind += line[l].distance(quad_[j][k]) <= 0.0 ? 1 : 0;
+    if (behind == 0 || behind == 4)
+      return false;
+    for (int k = 0; k < 4; ++k)
+      keepBehind(edgeLine(quad_[j][k], quad_[j][(k + 1) % 4]));
+    for (int other = 0; other < lines; ++other)
+      if (other != l)
+        keepBehind(line[other]);
+    begin = from + low * along;
+    end = from + high * along;
+    return low < high;
+  }
+
+  /// Volume of neighbour j.
+  KOKKOS_INLINE_FUNCTION double volumeOf(int j) const { return quad_volume_[j]; }
+
 private:
   /// Part of neighbour j behind all lines.
   KOKKOS_INLINE_FUNCTION double partBehind(int j, Plane2 const *line, int lines) const

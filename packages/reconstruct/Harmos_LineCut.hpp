@@ -229,32 +229,60 @@ HARMOS_LARGE_FUNCTION Region partAbove(Polygon<Capacity> const &polygon, LineCut
   return part;
 }
 
-/// A polygon divided in two by a line whose normal leaves `inside`.
-struct Division
+/// The part of a polygon behind a line whose normal leaves it.
+struct PartBehind
 {
-  Region inside, outside;
+  Region inside;
   Vector2 chord_begin, chord_end;
-  Plane2 line; // its normal leaves `inside`
+  Plane2 line;
   bool converged;
 };
 
-/// Divide a convex polygon by a line of given normal into given volumes; the smaller part is the one that is cut.
+/// A polygon divided in two by a line.
+struct Division : PartBehind
+{
+  Region outside;
+};
+
+namespace Detail
+{
+
+/// The smaller part is the one that is cut. \param outside The other part; not asked for: null.
+KOKKOS_INLINE_FUNCTION void divide(Region const &polygon, Vector2 const &normal, double inside_volume,
+                                   double outside_volume, AreaWeight const &weight, PartBehind &part, Region *outside)
+{
+  bool const cut_inside = inside_volume <= outside_volume;
+  LineCut const cut =
+      cut_inside ? lineCut(polygon, normal, inside_volume, weight) : lineCut(polygon, -normal, outside_volume, weight);
+  part.inside = cut_inside ? partBelow(polygon, cut) : partAbove(polygon, cut);
+  if (outside != nullptr)
+    *outside = cut_inside ? partAbove(polygon, cut) : partBelow(polygon, cut);
+  part.chord_begin = cut.begin;
+  part.chord_end = cut.end;
+  part.line = {normal, cut_inside ? cut.offset : -cut.offset};
+  part.converged = cut.converged;
+}
+
+} // namespace Detail
+
+/// Divide a convex polygon by a line of given normal into given volumes.
 ///
 /// \param inside_volume, outside_volume Their sum is the polygon's (weighted) volume, to round-off. [length^2]
 HARMOS_LARGE_FUNCTION Division divide(Region const &polygon, Vector2 const &normal, double inside_volume,
                                       double outside_volume, AreaWeight const &weight = {})
 {
   Division division;
-  bool const cut_inside = inside_volume <= outside_volume;
-  LineCut const cut =
-      cut_inside ? lineCut(polygon, normal, inside_volume, weight) : lineCut(polygon, -normal, outside_volume, weight);
-  division.inside = cut_inside ? partBelow(polygon, cut) : partAbove(polygon, cut);
-  division.outside = cut_inside ? partAbove(polygon, cut) : partBelow(polygon, cut);
-  division.chord_begin = cut.begin;
-  division.chord_end = cut.end;
-  division.line = {normal, cut_inside ? cut.offset : -cut.offset};
-  division.converged = cut.converged;
+  Detail::divide(polygon, normal, inside_volume, outside_volume, weight, division, &division.outside);
   return division;
+}
+
+/// Of a division the part behind the line alone.
+HARMOS_LARGE_FUNCTION PartBehind partBehind(Region const &polygon, Vector2 const &normal, double inside_volume,
+                                            double outside_volume, AreaWeight const &weight = {})
+{
+  PartBehind part;
+  Detail::divide(polygon, normal, inside_volume, outside_volume, weight, part, nullptr);
+  return part;
 }
 
 } // namespace Harmos

@@ -207,7 +207,7 @@ HARMOS_LARGE_FUNCTION bool voidIsAcross(ReconstructionField const &field, CellCo
   int const between = plan.component[0] == 2 ? 1 : 0; // the cut with a body on either side
   Region polygon = components.polygon;
   ComponentSet rest = components.all();
-  Plane2 line;
+  Plane2 line = {};
   Region open;
   for (int i = 0; i < 2; ++i)
   {

@@ -2,6 +2,7 @@
 #include "ReconstructScene.hpp"
 
 #include <Harmos_BodyAround.hpp>
+#include <Harmos_CornerProblem.hpp>
 
 #include <gtest/gtest.h>
 
@@ -326,4 +327,56 @@ TEST(ReconstructCorners, cornersGoOnInTheNeighbours_fragmentsDoNot)
   };
   for (double const radius : {0.45, 0.55, 0.6, 0.65})
     EXPECT_FALSE(goesOn(round(radius))) << radius;
+}
+
+/// Derivatives of the search for a corner, two lines of any angles and parts, against central differences.
+void expectDerivatives(Geometry geometry, bool with_rim)
+{
+  constexpr double difference = 1e-5;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 100; ++i)
+  {
+    Place const place(geometry, i);
+    Vector2 const corner = place.inMiddleCell(random);
+    double const ahead = 360.0 * unit(random);
+    Scene const scene =
+        paint(place.mesh, bodies({{halfPlane(ahead - 50.0, corner), halfPlane(ahead + 50.0, corner)}}, geometry));
+    ReconstructionField const field{scene.mesh, scene.pairs, scene.state.record, scene.state.centroid};
+    CellComponents components = cellComponents(field, 3 * 7 + 3, true);
+    if (components.count < 2)
+      continue;
+    Region polygon = components.polygon;
+    Plane2 rim{};
+    if (with_rim)
+    {
+      Division const cut =
+          divide(polygon, halfPlane(ahead + 60.0 * unit(random), {0.0, 0.0}).normal, 0.1, 0.9, components.weight);
+      polygon = cut.outside;
+      rim = cut.line;
+      components.volume[0] *= 0.9;
+      components.volume[1] *= 0.9;
+    }
+    CornerProblem const problem(field, components, 0, polygon, with_rim ? &rim : nullptr, 0.1);
+    double const x[3] = {6.0 * unit(random), 6.0 * unit(random), 0.1 + 0.8 * unit(random)};
+    double jacobian[CornerCell::unknowns][CornerCell::most_residuals];
+    problem.derivatives(problem.at(x), jacobian);
+    for (int p = 0; p < CornerCell::unknowns; ++p)
+    {
+      double up[3] = {x[0], x[1], x[2]}, down[3] = {x[0], x[1], x[2]};
+      up[p] += difference;
+      down[p] -= difference;
+      CornerCell const above = problem.at(up), below = problem.at(down);
+      for (int r = 0; r < 2 + problem.around.count; ++r)
+        EXPECT_NEAR(jacobian[p][r], (above.residual[r] - below.residual[r]) / (2.0 * difference), 2e-6)
+            << "corner " << i << ", unknown " << p << ", residual " << r;
+    }
+  }
+}
+
+TEST(ReconstructCorners, derivativesOfTheSearch_areThoseOfWhatItMeasures)
+{
+  for (Geometry const geometry : {Geometry::Planar, Geometry::Axisymmetric})
+    for (bool const with_rim : {false, true})
+      expectDerivatives(geometry, with_rim);
 }
