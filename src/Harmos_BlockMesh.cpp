@@ -51,14 +51,17 @@ MappedBlock bodyBlock(Deck const &deck, BodySpec const &body)
   return block;
 }
 
-/// A row of rigid cells behind a side of the domain: what a contact wall is to a body-fitted mesh.
+/// A row of rigid cells behind a side of the domain: what a contact wall is to a body-fitted mesh. Where two walls
+/// meet, those at the left and right reach around the domain's corner.
 MappedBlock wallBlock(Deck const &deck, int side)
 {
   double const x0 = deck.x.from, x1 = deck.x.to, y0 = deck.y.from, y1 = deck.y.to;
   double const dx = (x1 - x0) / deck.x.cells, dy = (y1 - y0) / deck.y.cells;
   // no wall reaches beyond the axis
   double const low = deck.geometry == Geometry::Axisymmetric ? std::max(0.0, x0 - dx) : x0 - dx;
-  int const nx = deck.x.cells + (low < x0 ? 2 : 1), ny = deck.y.cells;
+  auto const isWall = [&](int at) { return deck.boundary[at].kind == BoundaryKind::ContactWall; };
+  double const begin = isWall(Left) ? x0 : low, end = isWall(Right) ? x1 : x1 + dx; // of walls at the bottom and top
+  int const nx = deck.x.cells + (begin < x0 ? 1 : 0) + (end > x1 ? 1 : 0), ny = deck.y.cells;
   auto const box = [](double xa, double ya, double xb, double yb, int cx, int cy) {
     return MappedBlock{{Corner{xa, ya}, Corner{xb, ya}, Corner{xb, yb}, Corner{xa, yb}}, {cx, cy}};
   };
@@ -69,9 +72,9 @@ MappedBlock wallBlock(Deck const &deck, int side)
   case Right:
     return box(x1, y0 - dy, x1 + dx, y1 + dy, 1, ny + 2);
   case Bottom:
-    return box(low, y0 - dy, x1 + dx, y0, nx, 1);
+    return box(begin, y0 - dy, end, y0, nx, 1);
   default:
-    return box(low, y1, x1 + dx, y1 + dy, nx, 1);
+    return box(begin, y1, end, y1 + dy, nx, 1);
   }
 }
 

@@ -246,6 +246,24 @@ void warnOfOverlaps(Run &run)
   warn(run, text);
 }
 
+/// Contact has nothing to give: where it did, what it constrains is not stable.
+void warnOfGain(Run &run)
+{
+  constexpr double sizeable = 0.01; // of the energy at the start and what came in since
+  Ledger const &l = run.ledger;
+  double const energy = std::fabs(l.energy0) + std::fabs(l.external_work);
+  if (!(-l.contact_loss > sizeable * energy))
+    return;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "contact gave %.2e J per unit depth (contact_loss), %.2g times the energy at the start: what it moved is "
+      "not to be trusted. Gas that is squeezed to remnants between bodies does that, and penalties that are "
+      "too stiff",
+      -l.contact_loss, -l.contact_loss / energy);
+  warn(run, text);
+}
+
 bool finished(Run const &run)
 {
   return run.state.time >= run.deck.run.end_time * (1.0 - 1e-12) ||
@@ -417,6 +435,7 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
     ExitStatus const status = loop(run, output);
     noteErrors(run);
     warnOfOverlaps(run);
+    warnOfGain(run);
     run.progress.finish();
     writeRunSummary(run, status == Completed ? "completed" : "interrupted");
     return status;
@@ -426,6 +445,7 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
     std::string text = std::string("failed: ") + failure.what();
     if (!output.lastCheckpoint().empty())
       text += "; the last checkpoint is " + output.lastCheckpoint();
+    warnOfGain(run);
     run.warnings.push_back(text);
     run.progress.finish();
     if (comm->getRank() == 0)

@@ -135,5 +135,19 @@ def test_free_rigid_block_hit_off_its_centre_turns_and_keeps_its_shape():
     clean(r)
 
 
+def test_block_bounces_in_a_box_of_four_contact_walls():
+    block = rectangle("aluminium", [0.05, -0.1], [0.6, 0.3], 0.0, [30.0, 20.0], [8, 4])
+    sides = {f"boundaries/{side}": "{type: contact wall}" for side in ("left", "right", "bottom", "top")}
+    r = scene({"block": block}, 0.06, size=1.0, **sides)
+    for axis in "xy":
+        check(f"beyond the walls along {axis}, of a cell", max(max(r[f"block.{axis}_max"]) - 1.0,
+                                                               -1.0 - min(r[f"block.{axis}_min"])) / 0.075, 0.05)
+        turned = [value < 0.0 for value in r[f"block.momentum_{axis}"]]
+        print(f"  along {axis} it turned {sum(a != b for a, b in zip(turned, turned[1:]))} times")
+        assert True in turned
+    ledger(r)
+    clean(r)
+
+
 if __name__ == "__main__":
     run(globals())
