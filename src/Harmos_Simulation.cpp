@@ -249,18 +249,16 @@ void warnOfOverlaps(Run &run)
 /// Contact has nothing to give: where it did, what it constrains is not stable.
 void warnOfGain(Run &run)
 {
-  constexpr double sizeable = 0.01; // of the energy at the start and what came in since
+  constexpr double sizeable = 0.01; // of the largest energy
   Ledger const &l = run.ledger;
-  double const energy = std::fabs(l.energy0) + std::fabs(l.external_work);
-  if (!(-l.contact_loss > sizeable * energy))
+  if (!(-l.contact_loss > sizeable * l.largest_energy))
     return;
   char text[240];
   std::snprintf(
       text, sizeof text,
-      "contact gave %.2e J per unit depth (contact_loss), %.2g times the energy at the start: what it moved is "
-      "not to be trusted. Gas that is squeezed to remnants between bodies does that, and penalties that are "
-      "too stiff",
-      -l.contact_loss, -l.contact_loss / energy);
+      "contact gave energy, %.2e (contact_loss) beside %.2e in the scene at the start: what it moved is not to "
+      "be trusted. Gas that is squeezed to remnants between bodies does that, and penalties that are too stiff",
+      -l.contact_loss, l.energy0);
   warn(run, text);
 }
 

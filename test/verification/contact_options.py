@@ -68,6 +68,15 @@ def test_methods_without_a_solve_tell_by_how_much_they_miss():
         clean(r)
 
 
+def test_a_run_says_that_contact_gave_energy():
+    for method, gives in (("multipliers", False), ("penalty, penalty: 1.0", False), ("penalty, penalty: 10.0", True)):
+        r = harmos(DECK, {**START, CONSTRAINT: f"{{method: {method}}}"})
+        told = any("contact gave energy" in text for text in r.summary["warnings"])
+        print(f"  {method}: contact_loss {r.last('contact_loss'):.2e}, {'a' if told else 'no'} warning")
+        assert told == gives, f"{method}: {r.summary['warnings']}"
+        clean(r)
+
+
 def test_what_cannot_work_together_is_refused():
     cases = {
         "bonds that break, nodal": ({CONSTRAINT: "{method: nodal}", "interactions": "{default: bonded, tensile_strength: 1.0e6}"}, "numerics/constraint/method"),

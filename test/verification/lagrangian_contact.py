@@ -142,9 +142,7 @@ def test_block_bounces_in_a_box_of_four_contact_walls():
     for axis in "xy":
         check(f"beyond the walls along {axis}, of a cell", max(max(r[f"block.{axis}_max"]) - 1.0,
                                                                -1.0 - min(r[f"block.{axis}_min"])) / 0.075, 0.05)
-        turned = [value < 0.0 for value in r[f"block.momentum_{axis}"]]
-        print(f"  along {axis} it turned {sum(a != b for a, b in zip(turned, turned[1:]))} times")
-        assert True in turned
+        assert min(r[f"block.momentum_{axis}"]) < 0.0  # it has turned
     ledger(r)
     clean(r)
 
