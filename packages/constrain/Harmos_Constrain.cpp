@@ -189,6 +189,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   BodyTable const table_n = withBodies(table, bodies_n, arrays);
   bool const presses = options.fluid.extent(0) > 0 && stress.pressure.extent(0) > 0;
   PressureTractions tractions;
+  tractions.pressure = stress.pressure;
   ContactRows const rows =
       findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, bonds, options, exchange,
                       {velocity_n, table_n}, dt, kept, outline, bodies, presses ? &tractions : nullptr);
@@ -215,8 +216,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
     ContactSystem const of_facets =
         buildContactSystem(cells, borrowed(pairs), tractions.rows, dofs, borrowed(conditions), borrowed(dof_mass),
                            before, after, bodies, dt, RowScale::None, arrays);
-    pressure = pressureImpulses(tractions, of_facets, before, cells, borrowed(pairs), stress.pressure, options, kick,
-                                exchange, arrays);
+    pressure = pressureImpulses(tractions, of_facets, before, kick, exchange, arrays);
     pushed = arrays.unset<double *[2]>("Harmos::constrain::pushed", predicted.extent(0));
     launchCopy(pushed, predicted);
     addChange(of_facets, pressure.solution.change, pushed);

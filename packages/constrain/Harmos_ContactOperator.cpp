@@ -59,11 +59,16 @@ ContactOperator::ContactOperator(ContactSystem const &system, ContactRows const 
 {
 }
 
-void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> const &out) const
+void ContactOperator::push(View<double *[2]> const &x) const
 {
   shareImpulses(rows_.travelling, exchange_, sent_, received_, x);
   velocityChange(system_, x, change_);
   bodyVelocityChange(system_, x, exchange_, body_change_, work_);
+}
+
+void ContactOperator::product(View<double *[2]> const &x, View<double *[2]> const &out) const
+{
+  push(x);
   ContactSystem const s = system_;
   View<double *[2]> const change = change_, impulse = x, result = out;
   View<double *[3]> const body_change = body_change_;

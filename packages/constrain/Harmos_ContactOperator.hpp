@@ -15,16 +15,20 @@ public:
   ContactOperator(ContactSystem const &system, ContactRows const &rows, Exchange const &exchange,
                   WorkArrays const &work);
 
-  /// \param x Impulses; the halo rows' are replaced by their owners'. \param out Own rows: A x. Collective.
+  /// The changes of velocity by impulses. \param x The halo rows' are replaced by their owners'. Collective.
+  void push(View<double *[2]> const &x) const;
+
+  /// push, and what A makes of it. \param out Own rows: A x. Collective.
   void product(View<double *[2]> const &x, View<double *[2]> const &out) const;
 
   /// Own rows: b + A x. Collective.
   void residual(View<double *[2]> const &x, View<double *[2]> const &out) const;
 
-  /// Velocity changes of the last product: dofs, and free bodies.
-  View<double *[2]> const &change() const { return change_; } View<double *[3]> const &bodyChange() const {
-    return body_change_;
-  }
+  /// Velocity changes of the last push, of dofs.
+  View<double *[2]> const &change() const { return change_; }
+
+  /// And of free bodies.
+  View<double *[3]> const &bodyChange() const { return body_change_; }
 
   /// Largest ImpulseBounds::violation of all ranks' rows. \param reach Bounds across n. Collective.
   double violation(View<double *[2]> const &p, View<double *[2]> const &r, View<double *> const &reach) const;

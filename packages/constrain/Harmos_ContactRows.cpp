@@ -32,7 +32,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
   launchFor(
       "Harmos::constrain::planRows", segments.count, KOKKOS_LAMBDA(int i) { builder.plan(i, planned(i)); });
   if (tractions != nullptr)
-    *tractions = findPressureTractions(builder, planned, work);
+    *tractions = findPressureTractions(builder, planned, tractions->pressure, work);
   View<int *> const place = work.unset<int *>("Harmos::constrain::row_place", segments.count);
   ContactRows rows;
   launchScan(

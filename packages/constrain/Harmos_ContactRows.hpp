@@ -66,7 +66,7 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 /// pass each other by more than 0.02 cells in the step.
 ///
 /// \param before v^{n-1/2} \param dt Of the step; 0: no motion is known.
-/// \param tractions Out, where given: what the rows leave of fluids' pressures (Harmos_PressureTractions.hpp).
+/// \param tractions Where given, in: the pressures; out: what the rows leave of them (Harmos_PressureTractions.hpp).
 ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMaterialPairs const &dof_nodes,
                              FilledRegions const &regions, InterfaceSegments const &segments, View<RayHit *> const &hit,
                              SegmentBins const &bins, BoundaryConditions const &conditions, BodyTable const &bodies,

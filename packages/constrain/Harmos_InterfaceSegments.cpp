@@ -16,16 +16,22 @@ namespace
 // Shorter pieces, and distances to a line, count as nothing. [cell sizes]
 constexpr double negligible = 1e-8;
 
-/// What the segments of one cell share.
+/// A cell with the lines of its faces, in columns.
 struct CellFrame
 {
   static constexpr int room = pack_width > 4 ? pack_width : 4;
 
   Quadrilateral corner;
-  Edge face[4];
-  double x[room], y[room], normal_x[room], normal_y[room]; // starts and normals of the faces
-  double size;                                             // sqrt of the area
-  double tolerance;                                        // shorter pieces, and distances to a line, count as nothing
+  double x[room], y[room], along_x[room], along_y[room], length[room]; // of the faces: start, direction
+  double size;                                                         // sqrt of the area
+  double tolerance; // shorter pieces, and distances to a line, count as nothing
+
+  KOKKOS_FORCEINLINE_FUNCTION Vector2 direction(int k) const { return {along_x[k], along_y[k]}; }
+
+  KOKKOS_FORCEINLINE_FUNCTION Edge face(int k) const
+  {
+    return {corner[k], direction(k), -perpendicular(direction(k)), length[k]};
+  }
 
   /// The faces on whose lines a point lies: a bit each.
   KOKKOS_FORCEINLINE_FUNCTION unsigned facesAt(Vector2 const &point) const
@@ -35,7 +41,7 @@ struct CellFrame
     for (int k = 0; k < 4; k += pack_width)
     {
       Pack const dx = Pack(point[0]) - loadPack(x + k), dy = Pack(point[1]) - loadPack(y + k);
-      Pack const apart = Math::fabs(dx * loadPack(normal_x + k) + dy * loadPack(normal_y + k));
+      Pack const apart = Math::fabs(dx * loadPack(along_y + k) - dy * loadPack(along_x + k));
       faces |= lanesOf(apart <= Pack(tolerance)) << k;
     }
     return faces & 15u;
@@ -44,17 +50,25 @@ struct CellFrame
 
 KOKKOS_INLINE_FUNCTION CellFrame cellFrame(Mesh const &mesh, int cell)
 {
+  constexpr double least = 1e-300; // a face without length has no direction
   CellFrame frame;
   frame.corner = cellQuadrilateral(mesh, cell);
-  for (int k = 0; k < 4; ++k)
-    frame.face[k] = edgeBetween(frame.corner[k], frame.corner[(k + 1) % 4]);
   for (int k = 0; k < CellFrame::room; ++k)
   {
-    Edge const &face = frame.face[k & 3];
-    frame.x[k] = face.start[0];
-    frame.y[k] = face.start[1];
-    frame.normal_x[k] = face.normal[0];
-    frame.normal_y[k] = face.normal[1];
+    Vector2 const &start = frame.corner[k & 3], along = frame.corner[(k + 1) & 3] - start;
+    frame.x[k] = start[0];
+    frame.y[k] = start[1];
+    frame.along_x[k] = along[0];
+    frame.along_y[k] = along[1];
+  }
+  HARMOS_UNROLL
+  for (int k = 0; k < 4; k += pack_width)
+  {
+    Pack const dx = loadPack(frame.along_x + k), dy = loadPack(frame.along_y + k);
+    Pack const length = Math::sqrt(dx * dx + dy * dy), inverse = Pack(1.0) / Math::max(length, Pack(least));
+    storePack(frame.length + k, length);
+    storePack(frame.along_x + k, inverse * dx);
+    storePack(frame.along_y + k, inverse * dy);
   }
   frame.size = Math::sqrt(mesh.cell_area(cell));
   frame.tolerance = negligible * frame.size;
@@ -66,7 +80,7 @@ KOKKOS_INLINE_FUNCTION CellFrame cellFrame(Mesh const &mesh, int cell)
 KOKKOS_INLINE_FUNCTION int faceOfEdge(CellFrame const &frame, unsigned faces, Vector2 const &a, Vector2 const &b)
 {
   for (int k = 0; faces >> k != 0u; ++k)
-    if ((faces >> k & 1u) != 0u && dot(frame.face[k].direction, b - a) > 0.0)
+    if ((faces >> k & 1u) != 0u && dot(frame.direction(k), b - a) > 0.0)
       return k;
   return -1;
 }
@@ -203,7 +217,7 @@ struct SegmentFinder
       exposedPieces(edge.length, covers, material, frame.tolerance, pieces);
     }
     PiecePoints const points = piecePoints(placement, free);
-    double const exposed = face < 0 ? 1.0 : pieces.total / frame.face[face].length;
+    double const exposed = face < 0 ? 1.0 : pieces.total / frame.length[face];
     int const room = static_cast<int>(segment.extent(0));
     int count = 0;
     for (int piece = 0; piece < pieces.count; ++piece)
@@ -268,8 +282,8 @@ struct SegmentFinder
     if (surface.filling(cell) >= 0)
     {
       for (int k = 0; k < 4; ++k)
-        if (!isHidden(cell, k, pairs.material(begin)) && frame.face[k].length > frame.tolerance)
-          count += edgeSegments(begin, frame.face[k], k, frame, blank, count, first + count);
+        if (!isHidden(cell, k, pairs.material(begin)) && frame.length[k] > frame.tolerance)
+          count += edgeSegments(begin, frame.face(k), k, frame, blank, count, first + count);
       return count;
     }
     int const first_region = regions.cell_region(cell);
@@ -310,7 +324,7 @@ struct SegmentFinder
       if (first + count < static_cast<int>(segment.extent(0)))
       {
         InterfaceSegment &s = segment(first + count);
-        Edge const &face = frame.face[k];
+        Edge const face = frame.face(k);
         s = blank;
         s.midpoint = face.start + 0.5 * face.length * face.direction;
         s.point = middleOf(s.midpoint, face.direction, face.length);

@@ -9,10 +9,11 @@ namespace Harmos
 namespace
 {
 
-/// A traction, per pressure: along the normal of a row and across it.
+/// A traction along the normal of a row and across it [Pa], and the speed of its sides against each other from which on
+/// it fades [m/s].
 struct PlannedTraction
 {
-  double along, across;
+  double along = 0.0, across = 0.0, fading_slip = 0.0;
 
   KOKKOS_INLINE_FUNCTION bool any() const { return along != 0.0 || across != 0.0; }
 };
@@ -56,6 +57,39 @@ KOKKOS_INLINE_FUNCTION RayHit hitBeside(RowBuilder const &builder, int i)
   return found;
 }
 
+/// What the facets press with.
+struct FacetPressure
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  View<double *[3]> pressure; // PairStress::pressure
+
+  /// Mean over a cell and those around it, each at most `steep` of the cell's own off that.
+  KOKKOS_INLINE_FUNCTION double around(int cell, int material) const
+  {
+    constexpr double steep = 0.1;
+    double const own = pressure(pairs.find(cell, material), 0), off = steep * Math::fabs(own);
+    double load = 0.0, volume = 0.0;
+    auto const add = [&](int pair)
+    {
+      if (pair < 0)
+        return;
+      load += Math::clamp(pressure(pair, 0), own - off, own + off) * pressure(pair, 1);
+      volume += pressure(pair, 1);
+    };
+    add(pairs.find(cell, material));
+    for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
+      add(pairs.find(mesh.cell_neighbour.item(e), material));
+    return load / volume;
+  }
+
+  KOKKOS_INLINE_FUNCTION double densityOf(int cell, int material) const
+  {
+    int const pair = pairs.find(cell, material);
+    return pressure(pair, 2) / pressure(pair, 1);
+  }
+};
+
 struct TractionFinder
 {
   static constexpr int most = 3; // of a segment: its own, and those of its rows
@@ -63,6 +97,7 @@ struct TractionFinder
   RowBuilder builder;
   View<PlannedRows *> planned;
   View<RayHit *> hit; // what bears the pressure of each segment
+  FacetPressure pressure;
 
   /// Whether segment i is a facet whose pressure counts, on what it faces.
   KOKKOS_INLINE_FUNCTION bool isPressed(int i) const
@@ -126,20 +161,16 @@ struct TractionFinder
     return isOnAxis(builder.segment(hit.segment).cell);
   }
 
-  /// Number k of segment i: 0 of its own pressure, 1 and 2 of its rows.
+  /// Number k of segment i: 0 of its own pressure, 1 and 2 of its rows. None in tension and through void.
   KOKKOS_INLINE_FUNCTION PlannedTraction traction(int i, int k) const
   {
-    constexpr double round_off = 1e-9; // of normals
-    int const cell = builder.segment(i).cell;
-    if (builder.mesh.cell_depth(cell) != 0 || isOnAxis(cell))
-      return {0.0, 0.0};
-    if (k > 0)
-      return {k <= planned(i).count && !facesOnAxis(planned(i).hit[k - 1]) && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
-    if (!isPressed(i) || facesOnAxis(hit(i)))
-      return {0.0, 0.0};
-    Vector2 const n = builder.segment(i).normal, rest = n - rowNormal(i);
-    return norm(rest) < round_off ? PlannedTraction{0.0, 0.0}
-                                  : PlannedTraction{dot(n, rest), dot(perpendicular(n), rest)};
+    Vector2 const part = partOfPressure(i, k);
+    if (part[0] == 0.0 && part[1] == 0.0)
+      return {};
+    RayHit const &on = k == 0 ? hit(i) : planned(i).hit[k - 1];
+    if (on.gap > touching_gap * builder.segment(i).cell_size)
+      return {};
+    return loaded(part, builder.segment(i), builder.segment(on.segment));
   }
 
   KOKKOS_INLINE_FUNCTION ContactRow rowOf(int i, int k) const
@@ -160,6 +191,43 @@ struct TractionFinder
   }
 
 private:
+  /// Traction number k of segment i per pressure, along the normal of its row and across it.
+  KOKKOS_INLINE_FUNCTION Vector2 partOfPressure(int i, int k) const
+  {
+    constexpr double round_off = 1e-9; // of normals
+    int const cell = builder.segment(i).cell;
+    if (builder.mesh.cell_depth(cell) != 0 || isOnAxis(cell))
+      return {0.0, 0.0};
+    if (k > 0)
+      return {k <= planned(i).count && !facesOnAxis(planned(i).hit[k - 1]) && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
+    if (!isPressed(i) || facesOnAxis(hit(i)))
+      return {0.0, 0.0};
+    Vector2 const n = builder.segment(i).normal, rest = n - rowNormal(i);
+    return norm(rest) < round_off ? Vector2{0.0, 0.0} : Vector2{dot(n, rest), dot(perpendicular(n), rest)};
+  }
+
+  KOKKOS_INLINE_FUNCTION bool presses(InterfaceSegment const &side) const
+  {
+    return builder.bearing.isPressed(side) && builder.bodyOf(side.material) == -1;
+  }
+
+  /// The pressure between two sides, times `part`; nothing in tension.
+  KOKKOS_INLINE_FUNCTION PlannedTraction loaded(Vector2 const &part, InterfaceSegment const &a,
+                                                InterfaceSegment const &b) const
+  {
+    constexpr double most_slip = 0.1; // over sqrt(p / density)
+    bool const of_a = presses(a), of_b = presses(b);
+    double p = of_a ? pressure.around(a.cell, a.material) : pressure.around(b.cell, b.material);
+    if (of_a && of_b)
+      p = Math::min(p, pressure.around(b.cell, b.material));
+    if (!(p > 0.0))
+      return {};
+    double density = of_a ? pressure.densityOf(a.cell, a.material) : 0.0;
+    if (of_b)
+      density = Math::max(density, pressure.densityOf(b.cell, b.material));
+    return {p * part[0], p * part[1], most_slip * Math::sqrt(p / density)};
+  }
+
   /// Whether a row bears a pressed facet, but not over just that.
   KOKKOS_INLINE_FUNCTION bool isUnmatched(int i, int half) const
   {
@@ -171,68 +239,10 @@ private:
   }
 };
 
-/// What the facets press with.
-struct FacetPressure
-{
-  /// Speed of the sides against each other, over sqrt(p / density), from which on the tractions fade; at twice that
-  /// they are none.
-  static constexpr double most_slip = 0.1;
-
-  Mesh mesh;
-  CellMaterialPairs pairs;
-  View<double *[3]> pressure;
-  View<int *> fluid;
-
-  /// Mean over a cell and those around it, each at most `steep` of the cell's own off that.
-  KOKKOS_INLINE_FUNCTION double around(int cell, int material) const
-  {
-    constexpr double steep = 0.1;
-    double const own = pressure(pairs.find(cell, material), 0), off = steep * Math::fabs(own);
-    double load = 0.0, volume = 0.0;
-    auto const add = [&](int pair)
-    {
-      if (pair < 0)
-        return;
-      load += Math::clamp(pressure(pair, 0), own - off, own + off) * pressure(pair, 1);
-      volume += pressure(pair, 1);
-    };
-    add(pairs.find(cell, material));
-    for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
-      add(pairs.find(mesh.cell_neighbour.item(e), material));
-    return load / volume;
-  }
-
-  KOKKOS_INLINE_FUNCTION bool presses(int material, int body) const
-  {
-    return material >= 0 && body == -1 && fluid(material) != 0;
-  }
-
-  KOKKOS_INLINE_FUNCTION double densityOf(int cell, int material) const
-  {
-    int const pair = pairs.find(cell, material);
-    return pressure(pair, 2) / pressure(pair, 1);
-  }
-
-  /// \param slip Speed of the sides against each other.
-  KOKKOS_INLINE_FUNCTION double operator()(ContactRow const &row, double slip) const
-  {
-    bool const a = presses(row.material_a, row.body_a), b = presses(row.material_b, row.body_b);
-    double p = a ? around(row.cell_a, row.material_a) : around(row.cell_b, row.material_b);
-    if (a && b)
-      p = Math::min(p, around(row.cell_b, row.material_b));
-    if (!(p > 0.0))
-      return 0.0;
-    double density = a ? densityOf(row.cell_a, row.material_a) : 0.0;
-    if (b)
-      density = Math::max(density, densityOf(row.cell_b, row.material_b));
-    return p * Math::clamp(2.0 - slip / (most_slip * Math::sqrt(p / density)), 0.0, 1.0);
-  }
-};
-
 } // namespace
 
 PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
-                                        WorkArrays const &work)
+                                        View<double *[3]> const &pressure, WorkArrays const &work)
 {
   constexpr int most = TractionFinder::most;
   int const count = builder.segments.count;
@@ -243,11 +253,12 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
             builder.bearing.isPressed(builder.segment(i)) && planned(i).count == 0 && !touches(builder, i);
         hit(i) = alone ? hitBeside(builder, i) : builder.hit(i);
       });
-  TractionFinder const finder{builder, planned, hit};
+  TractionFinder const finder{builder, planned, hit, {builder.mesh, builder.pairs, pressure}};
   View<PlannedTraction *[most]> const traction =
       work.unset<PlannedTraction *[most]>("Harmos::constrain::traction", count);
   View<int *> const place = work.unset<int *>("Harmos::constrain::traction_place", count);
   PressureTractions found;
+  found.pressure = pressure;
   launchFor(
       "Harmos::constrain::planTractions", count, KOKKOS_LAMBDA(int i) {
         for (int k = 0; k < most; ++k)
@@ -266,10 +277,12 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
   found.rows.num_multipliers = 2 * static_cast<long long>(found.rows.count);
   found.rows.row = work.unset<ContactRow *>("Harmos::constrain::traction_row", found.rows.count);
   found.rows.own = work.unset<int *>("Harmos::constrain::own_traction", found.rows.count);
-  found.along = work.unset<double *[2]>("Harmos::constrain::traction_along", found.rows.count);
+  found.load = work.unset<double *[2]>("Harmos::constrain::traction_load", found.rows.count);
+  found.fading_slip = work.unset<double *>("Harmos::constrain::fading_slip", found.rows.count);
   View<ContactRow *> const row = found.rows.row;
   View<int *> const own = found.rows.own;
-  View<double *[2]> const along = found.along;
+  View<double *[2]> const load = found.load;
+  View<double *> const fading_slip = found.fading_slip;
   launchFor(
       "Harmos::constrain::makeTractions", count, KOKKOS_LAMBDA(int i) {
         int r = place(i);
@@ -279,8 +292,9 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
             continue;
           row(r) = finder.rowOf(i, k);
           own(r) = r;
-          along(r, 0) = traction(i, k).along;
-          along(r, 1) = traction(i, k).across;
+          load(r, 0) = traction(i, k).along;
+          load(r, 1) = traction(i, k).across;
+          fading_slip(r) = traction(i, k).fading_slip;
           ++r;
         }
       });
@@ -288,31 +302,26 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
 }
 
 PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,
-                                  Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[3]> const &pressure,
-                                  ConstraintOptions const &options, double kick, Exchange const &exchange,
-                                  WorkArrays const &work)
+                                  double kick, Exchange const &exchange, WorkArrays const &work)
 {
   PressureImpulses found;
   found.system = system;
   View<double *[2]> const impulse = work.zeros<double *[2]>("Harmos::constrain::pressure_impulse", system.num_rows);
-  View<double *[2]> const velocity = work.unset<double *[2]>("Harmos::constrain::facet_velocity", system.num_rows);
-  FacetPressure const press{mesh, pairs, pressure, options.fluid};
   View<ContactRow *> const row = tractions.rows.row;
-  View<double *[2]> const along = tractions.along;
+  View<double *[2]> const load = tractions.load;
+  View<double *> const fading_slip = tractions.fading_slip;
   ContactSystem const s = system;
   launchFor(
       "Harmos::constrain::pressureImpulses", s.num_own, KOKKOS_LAMBDA(int i) {
         int const r = s.own(i);
         ContactRow const &facet = row(r);
-        if (facet.gap > touching_gap * Math::sqrt(mesh.cell_area(facet.cell_a)))
-          return;
         double const slip = norm(relativeVelocity(facet, before.velocity, before.bodies));
-        double const load = kick * facet.length * press(facet, slip);
-        impulse(r, 0) = load * along(i, 0);
-        impulse(r, 1) = load * along(i, 1);
+        double const scale = kick * facet.length * Math::clamp(2.0 - slip / fading_slip(i), 0.0, 1.0);
+        impulse(r, 0) = scale * load(i, 0);
+        impulse(r, 1) = scale * load(i, 1);
       });
   ContactOperator const contact(found.system, tractions.rows, exchange, work);
-  contact.product(impulse, velocity);
+  contact.push(impulse);
   found.solution.impulse = impulse;
   found.solution.change = contact.change();
   found.solution.body_change = contact.bodyChange();

@@ -24,17 +24,25 @@ struct RowBuilder;
 /// with the weights of rows, before the multipliers are found: a fluid of one pressure on bodies at rest is in balance
 /// with the multipliers p, whatever facets the reconstruction made (doc/decisions/0029). Where a row acts over just its
 /// facet the two are one.
+///
+/// There are none in tension, nor where the sides do not touch (touching_gap): void beyond that closes under the
+/// pressure. p is the mean over the fluid's part of the cell and of those around it, by volume, each at most a tenth of
+/// the cell's own off that. With the cell's own the tractions would take away all that resists a light sliver's sliding
+/// into a corner, and noise grew (e-fold in 0.8 ms beside a square of 0.7 m in air). Without the viscosity, which
+/// follows the velocity that the tractions make. Between two fluids p is the lower: what both carry.
 struct PressureTractions
 {
-  ContactRows rows;        // one for each traction; num_multipliers counts two for each
-  View<double *[2]> along; // num_own: traction per pressure [1], along the row's normal and across it
+  View<double *[3]> pressure; // in: PairStress::pressure
+  ContactRows rows;           // one for each traction; num_multipliers counts two for each
+  View<double *[2]> load;     // num_own: along the row's normal and across it [Pa]
+  View<double *> fading_slip; // num_own: speed of the sides against each other from which on the traction fades [m/s]
 };
 
 /// The tractions of the segments of owned cells. Of two fluids the slave's facets count, about an axis none; bonded
 /// pairs, and cells with a corner on an axis, have none. The caller sums num_multipliers and exchanges the rows.
-/// \param planned The rows of each segment.
+/// \param planned The rows of each segment. \param pressure PairStress::pressure
 PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
-                                        WorkArrays const &work);
+                                        View<double *[3]> const &pressure, WorkArrays const &work);
 
 /// The tractions at work.
 struct PressureImpulses
@@ -43,20 +51,11 @@ struct PressureImpulses
   MultiplierSolution solution; // impulses along the normals and across [N s/m]; changes of velocity [m/s]
 };
 
-/// Impulses of the tractions over `kick`, where their sides touch (touching_gap): void beyond that closes under the
-/// pressure. None in tension.
-///
-/// p is the mean over the fluid's part of the cell and of those around it, by volume, each at most a tenth of the
-/// cell's own off that. With the cell's own the tractions would take away all that resists a light sliver's sliding
-/// into a corner, and noise grew (e-fold in 0.8 ms beside a square of 0.7 m in air). Without the viscosity, which
-/// follows the velocity that the tractions make. They do work on what slides: where the sides pass each other by 0.1
-/// sqrt(p / density) they fade, at twice that they are none. Between two fluids p is the lower: what both carry.
-/// \param system Of tractions.rows, at v*. \param before v^{n-1/2}
-/// \param pressure Of the pairs [Pa], the volumes that they fill, their masses. Collective.
+/// Impulses of the tractions over `kick`. They do work on what slides: where the sides pass each other by 0.1
+/// sqrt(p / density) they fade, at twice that they are none.
+/// \param system Of tractions.rows, at v*. \param before v^{n-1/2}. Collective.
 PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,
-                                  Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[3]> const &pressure,
-                                  ConstraintOptions const &options, double kick, Exchange const &exchange,
-                                  WorkArrays const &work);
+                                  double kick, Exchange const &exchange, WorkArrays const &work);
 
 } // namespace Harmos
 

@@ -21,12 +21,12 @@ KOKKOS_INLINE_FUNCTION void shapeFunctions(Vector2 const &xi, double N[4])
 /// The same iteration where the derivatives do not change: its second step corrects round-off of the first.
 KOKKOS_INLINE_FUNCTION Vector2 parallelogramCoordinates(Vector2 const &e1, Vector2 const &e2, Vector2 const &d)
 {
-  double const det = cross(e1, e2);
+  double const det = cross(e1, e2), inverse = det != 0.0 ? 1.0 / det : 0.0;
   Vector2 xi{0.5, 0.5};
-  for (int i = 0; i < 20 && det != 0.0; ++i)
+  for (int i = 0; i < 20; ++i)
   {
     Vector2 const residual = d - (xi[0] * e1 + xi[1] * e2);
-    Vector2 const step{cross(residual, e2) / det, cross(e1, residual) / det};
+    Vector2 const step{inverse * cross(residual, e2), inverse * cross(e1, residual)};
     xi += step;
     if (Math::fabs(step[0]) + Math::fabs(step[1]) < 1e-15)
       break;

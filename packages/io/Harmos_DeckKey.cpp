@@ -83,6 +83,29 @@ bool numberOf(ParameterEntry const &entry, double &number)
   return true;
 }
 
+/// Whether a text, which no deck's reader took for a number, is one all the same: too large, or none that is finite.
+bool isUnboundedNumber(std::string text)
+{
+  if (text.size() > 1 && text[0] == '.' && std::isalpha(static_cast<unsigned char>(text[1])))
+    text.erase(0, 1); // YAML writes .inf and .nan
+  char *end = nullptr;
+  double const value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && !std::isfinite(value);
+}
+
+/// Whether an entry is no number, or an integer, only because of its size.
+bool isUnbounded(ParameterEntry const &entry)
+{
+  if (entry.isType<std::string>())
+    return isUnboundedNumber(Teuchos::getValue<std::string>(entry));
+  if (entry.isType<Array<std::string>>())
+  {
+    Array<std::string> const &items = Teuchos::getValue<Array<std::string>>(entry);
+    return std::any_of(items.begin(), items.end(), isUnboundedNumber);
+  }
+  return entry.isType<long long>();
+}
+
 template <class T>
 std::string arrayText(Array<T> const &values)
 {
@@ -236,6 +259,13 @@ void DeckKeyValidator::checkRange(double value, std::string const &where) const
 Teuchos::any DeckKeyValidator::converted(ParameterEntry const &entry, std::string const &where) const
 {
   Teuchos::Exceptions::InvalidParameterType const wrong_type(where + " is of the wrong type; expected: " + expected());
+  auto const refuseNumber = [&]
+  {
+    if (isUnbounded(entry))
+      throw Teuchos::Exceptions::InvalidParameterValue(where +
+                                                       " is no finite number or too large; expected: " + expected());
+    throw wrong_type;
+  };
   switch (rules_.type)
   {
   case KeyType::Bool:
@@ -244,14 +274,14 @@ Teuchos::any DeckKeyValidator::converted(ParameterEntry const &entry, std::strin
     return Teuchos::any(Teuchos::getValue<bool>(entry));
   case KeyType::Integer:
     if (!entry.isType<int>())
-      throw wrong_type;
+      refuseNumber();
     checkRange(Teuchos::getValue<int>(entry), where);
     return Teuchos::any(Teuchos::getValue<int>(entry));
   case KeyType::Number:
   {
     double value = 0.0;
     if (!numberOf(entry, value))
-      throw wrong_type;
+      refuseNumber();
     checkRange(value, where);
     return Teuchos::any(value);
   }
@@ -259,7 +289,7 @@ Teuchos::any DeckKeyValidator::converted(ParameterEntry const &entry, std::strin
   {
     Array<double> values;
     if (!numbersOf(entry, values))
-      throw wrong_type;
+      refuseNumber();
     int const size = static_cast<int>(values.size());
     if (size < rules_.least_length || (rules_.most_length > 0 && size > rules_.most_length))
       throw Teuchos::Exceptions::InvalidParameterValue(where + " has the wrong length; expected: " + expected());

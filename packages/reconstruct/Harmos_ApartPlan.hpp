@@ -27,11 +27,11 @@ HARMOS_LARGE_FUNCTION CellComponents alone(CellComponents const &components, int
 HARMOS_LARGE_FUNCTION Region regionAlone(CellComponents const &components, RemovalPlan const &plan, int body)
 {
   double const volume = components.volume[body], beyond = 1.0 - volume - plan.open[body];
-  Division const one =
-      divide(components.polygon, plan.normal[2 * body], volume + beyond, plan.open[body], components.weight);
+  PartBehind const one =
+      partBehind(components.polygon, plan.normal[2 * body], volume + beyond, plan.open[body], components.weight);
   if (!(beyond > least_void))
     return one.inside;
-  return divide(one.inside, plan.normal[2 * body + 1], volume, beyond, components.weight).inside;
+  return partBehind(one.inside, plan.normal[2 * body + 1], volume, beyond, components.weight).inside;
 }
 
 /// How a body that is drawn alone has the centroid that it should have.
@@ -80,7 +80,7 @@ HARMOS_LARGE_FUNCTION DrawnAlone drawAlone(ReconstructionField const &field, Cel
     if (corner.error < 1e300)
     {
       for (int l = 0; l < 2; ++l)
-        plan.normal[2 * body + l] = corner.normal[l];
+        plan.normal[2 * body + l] = corner.line[l].normal;
       plan.open[body] = corner.open;
       error = corner.residual[0] * corner.residual[0] + corner.residual[1] * corner.residual[1];
     }

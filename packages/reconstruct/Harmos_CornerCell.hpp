@@ -50,7 +50,7 @@ HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fiel
   constexpr double centroid_first = 1e-3;
   double const volume = components.volume[body], open = components.volume[components.count - 1];
   double const smaller = Math::min(volume, open);
-  Division const straight = divide(polygon, normal, volume, open, components.weight);
+  PartBehind const straight = partBehind(polygon, normal, volume, open, components.weight);
   Vector2 const miss = components.firstMiss(straight.inside, body);
   if (!(norm(miss) > least_miss * smaller) || dot(miss, normal) > 0.0 ||
       (!thorough && !(straightMisfit(field, components, body, polygon, normal) > poor_misfit)))
@@ -118,8 +118,8 @@ KOKKOS_INLINE_FUNCTION bool cutsTips(CellComponents const &components, Region co
 {
   constexpr double longest = 0.5; // of the cell's side
   double const rest = void_volume - cell.open;
-  Division const one = divide(polygon, cell.normal[0], volume + rest, cell.open, components.weight);
-  Division const two = divide(one.inside, cell.normal[1], volume, rest, components.weight);
+  PartBehind const one = partBehind(polygon, cell.line[0].normal, volume + rest, cell.open, components.weight);
+  PartBehind const two = partBehind(one.inside, cell.line[1].normal, volume, rest, components.weight);
   return norm(one.chord_end - one.chord_begin) < longest && norm(two.chord_end - two.chord_begin) < longest;
 }
 
@@ -173,7 +173,7 @@ HARMOS_LARGE_FUNCTION EmbeddedCorner embeddedCorner(CellComponents const &compon
   EmbeddedCorner corner;
   corner.around = aroundCorner(one, two);
   if (!corner.around.empty())
-    corner.inside = open > 0.0 ? divide(two.inside, second, own, open, components.weight).inside : two.inside;
+    corner.inside = open > 0.0 ? partBehind(two.inside, second, own, open, components.weight).inside : two.inside;
   return corner;
 }
 
@@ -233,8 +233,8 @@ HARMOS_LARGE_FUNCTION RemovalPlan embeddedCornerPlan(ReconstructionField const &
     plan.count = components.count;
     plan.corner = plan.embedded = true;
     plan.parted = false;
-    plan.set(0, body, cell.normal[0]);
-    plan.set(1, other, cell.normal[1]);
+    plan.set(0, body, cell.line[0].normal);
+    plan.set(1, other, cell.line[1].normal);
     if (components.count > 2)
       plan.set(2, 2, {0.0, 0.0});
     plan.void_part = Math::min(cell.open, components.volume[other]);
@@ -303,8 +303,8 @@ HARMOS_LARGE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, C
       continue;
     if (thin && !cutsTips(components, polygon, cell, components.volume[0], components.volume[1]))
       continue;
-    plan.set(bodies - 1, body, cell.normal[0]);
-    plan.set(bodies, bodies, cell.normal[1]);
+    plan.set(bodies - 1, body, cell.line[0].normal);
+    plan.set(bodies, bodies, cell.line[1].normal);
     plan.void_part = cell.open;
     plan.error = cell.error;
     return plan;

@@ -13,7 +13,6 @@ struct CornerCell
 {
   static constexpr int unknowns = 3, most_residuals = 2 + BodyAround::most_neighbours;
   double x[unknowns]; // angles of both normals, which leave the body; the first line's part of the void
-  Vector2 normal[2];  // (cos, sin) of the angles
   double open;        // void that the first line cuts off
   Plane2 line[2];
   Vector2 chord_begin[2], chord_end[2]; // where the first line crosses the polygon, and the second what that leaves
@@ -81,12 +80,11 @@ struct CornerProblem
     cell.x[0] = x[0];
     cell.x[1] = x[1];
     cell.x[2] = Math::clamp(x[2], least_part, 1.0 - least_part);
-    for (int l = 0; l < 2; ++l)
-      cell.normal[l] = {Math::cos(x[l]), Math::sin(x[l])};
+    Vector2 const normal[2] = {{Math::cos(x[0]), Math::sin(x[0])}, {Math::cos(x[1]), Math::sin(x[1])}};
     cell.open = cell.x[2] * void_volume;
     double const rest = void_volume - cell.open;
-    PartBehind const one = partBehind(polygon, cell.normal[0], volume + rest, cell.open, components.weight);
-    PartBehind const two = partBehind(one.inside, cell.normal[1], volume, rest, components.weight);
+    PartBehind const one = partBehind(polygon, normal[0], volume + rest, cell.open, components.weight);
+    PartBehind const two = partBehind(one.inside, normal[1], volume, rest, components.weight);
     cell.line[0] = one.line;
     cell.line[1] = two.line;
     cell.chord_begin[0] = one.chord_begin;
@@ -107,7 +105,7 @@ struct CornerProblem
                                          double (&jacobian)[CornerCell::unknowns][CornerCell::most_residuals]) const
   {
     constexpr int n = CornerCell::unknowns;
-    Vector2 const along[2] = {perpendicular(cell.normal[0]), perpendicular(cell.normal[1])};
+    Vector2 const along[2] = {perpendicular(cell.line[0].normal), perpendicular(cell.line[1].normal)};
     // Of the first line, what bounds the region.
     Vector2 edge_begin = cell.chord_begin[0], edge_end = cell.chord_end[0];
     double const from = cell.line[1].distance(edge_begin), to = cell.line[1].distance(edge_end);

@@ -116,7 +116,7 @@ KOKKOS_INLINE_FUNCTION ComponentSet placingSet(CellComponents const &components,
     return set;
   MomentOfFluidLine const line =
       momentOfFluidLine(polygon, own, (1.0 / own) * components.firstMomentOf(tip), components.weight);
-  Division const cut = divide(polygon, line.normal, volume, rest, components.weight);
+  PartBehind const cut = partBehind(polygon, line.normal, volume, rest, components.weight);
   return norm(cut.chord_end - cut.chord_begin) < longest_line ? tip : set;
 }
 

@@ -97,6 +97,18 @@ TEST(DeckErrors, WrongType_showsValueAndExpectation)
   EXPECT_STARTS(message({"bodies/slider=3"}), "deck.yaml: bodies/slider: unknown key; allowed: a name with a map");
 }
 
+TEST(DeckErrors, NumbersWithoutBound_areNamedAsSuch)
+{
+  EXPECT_EQ(message({"run/end_time=1e400"}),
+            "deck.yaml: run/end_time: \"1e400\" is no finite number or too large; expected: number > 0 [s]");
+  EXPECT_EQ(message({"mesh/x/cells=100000000000"}),
+            "deck.yaml: mesh/x/cells: 100000000000 is no finite number or too large; expected: integer >= 1");
+  for (std::string const value : {".nan", ".inf", "nan", "-1e999"})
+    EXPECT_EQ(message({"gravity=[0.0, " + value + "]"}), "deck.yaml: gravity: [\"0.0\", \"" + value +
+                                                             "\"] is no finite number or too large; expected: array "
+                                                             "of 2 numbers [m/s^2]");
+}
+
 TEST(DeckErrors, KeyWithoutValue_saysSo)
 {
   EXPECT_STARTS(messageOfText("harmos:\n  title:\n  mesh:\n    x: {from: 1}\n"),
