@@ -213,10 +213,14 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         double const closing = along + r.opening() / dt;
         out.struck = !r.tied && r.restitution > 0.0 && closing < 0.0;
         out.predicted[0] = r.tied ? along : out.struck ? rebound(r, along, before, dt) : closing;
+        out.opening = r.tied || out.struck ? 0.0 : closing - along;
         out.predicted[1] = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
         for (int k = 0; k < s.directions(i); ++k)
           if (movablePart(s, r, i, k) < least_movable_part)
+          {
             out.predicted[k] = r.tied || k == 1 ? 0.0 : Math::max(0.0, out.predicted[k]);
+            out.opening = k == 0 ? 0.0 : out.opening;
+          }
       });
 }
 
@@ -326,6 +330,7 @@ bool reboundWhereStruck(ContactRows const &rows, Motion const &before, Motion co
         double const along = dot(r.normal, relativeVelocity(r, predicted.velocity, predicted.bodies));
         double const asked = rebound(r, along, before, dt);
         out.struck = true;
+        out.opening = 0.0;
         out.predicted[0] = movablePart(s, r, i, 0) < least_movable_part ? Math::max(0.0, asked) : asked;
         any = 1.0;
       },

@@ -51,6 +51,7 @@ struct SystemRow
   int dof[8];           // compact dof of side a's corners (0..3) and b's (4..7), -1: none
   double weight[8];     // signed shape functions, - for a, + for b
   double predicted[2];  // b
+  double opening;       // what the gap adds to b along n [m/s]
   double diagonal[2];   // row sums of |G M^-1 P G^T|, deformable part; own rows
   double compliance[2]; // velocity by which the row gives way, per impulse; own rows
   int free_body[2];     // free body of side a, b: its compact number, -1: none

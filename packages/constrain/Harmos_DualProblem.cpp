@@ -221,9 +221,19 @@ Spread spreadOf(std::vector<std::vector<GroupShare>> const &shares, std::vector<
   return spread;
 }
 
+/// What the rows' gaps add to the b of each unknown [m/s].
+std::vector<double> openings(std::vector<DualRow> const &rows, std::vector<int> const &first, int num_unknowns)
+{
+  std::vector<double> opening(num_unknowns, 0.0);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    opening[first[i]] = rows[i].opening;
+  return opening;
+}
+
 /// spread^T (problem) spread, in unknowns scaled by its own row sums; the spread's weights become those between scaled
-/// unknowns.
-DualProblem coarsen(DualProblem const &fine, int unknowns, Spread &spread)
+/// unknowns. A group's gap is the least of its rows': with the mean, rows that touch would come into each other by as
+/// much as the others close. \param opening Of b, by fine unknown.
+DualProblem coarsen(DualProblem const &fine, std::vector<double> const &opening, int unknowns, Spread &spread)
 {
   std::vector<std::vector<Spread::Entry>> by_fine(fine.size());
   for (Spread::Entry const &e : spread.entry)
@@ -234,11 +244,13 @@ DualProblem coarsen(DualProblem const &fine, int unknowns, Spread &spread)
   coarse.tied.assign(unknowns, 0);
   coarse.normal_of.assign(unknowns, -1);
   coarse.friction.assign(unknowns, 0.0);
+  std::vector<double> least_opening(unknowns, 1e300);
   std::vector<MatrixEntry> matrix, body;
   for (int u = 0; u < fine.size(); ++u)
     for (Spread::Entry const &e : by_fine[u])
     {
-      coarse.b[e.coarse] += e.weight * fine.root[u] * fine.b[u];
+      coarse.b[e.coarse] += e.weight * (fine.root[u] * fine.b[u] - opening[u]);
+      least_opening[e.coarse] = std::min(least_opening[e.coarse], opening[u]);
       coarse.tied[e.coarse] = fine.tied[u];
       if (fine.normal_of[u] >= 0)
       {
@@ -279,7 +291,7 @@ DualProblem coarsen(DualProblem const &fine, int unknowns, Spread &spread)
     // Where node conditions leave nothing free to move, what the rows have without them (rowSum).
     bool const moves = diagonal[i] > 1e-12 * std::max(rigid[i], held[i]);
     coarse.root.push_back(std::sqrt(moves ? diagonal[i] : rigid[i] > 0.0 ? rigid[i] : held[i]));
-    coarse.b[i] /= coarse.root[i];
+    coarse.b[i] = (coarse.b[i] + least_opening[i]) / coarse.root[i];
     if (coarse.normal_of[i] >= 0)
       coarse.friction[i] *= coarse.root[i] / coarse.root[i - 1];
   }
@@ -387,7 +399,7 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
     int num_groups = 0, coarse = 0;
     auto const shares = vitalGroups(trace, rowKinds(trace, all.row), num_groups);
     assembled.spread = spreadOf(shares, all.row, order, first, num_groups, coarse);
-    assembled.groups = coarsen(problem, coarse, assembled.spread);
+    assembled.groups = coarsen(problem, openings(all.row, first, unknowns), coarse, assembled.spread);
   }
   return assembled;
 }

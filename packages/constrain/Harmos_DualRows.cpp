@@ -55,6 +55,7 @@ KOKKOS_INLINE_FUNCTION DualRow dualRow(ContactSystem const &s, int row)
   d.directions = s.directions(row);
   d.tied = s.tied(row);
   d.friction = s.friction(row);
+  d.opening = s.row(row).opening;
   for (int side = 0; side < 2; ++side)
     d.body[side] = s.freeBody(row, side);
   for (int k = 0; k < s.directions(row); ++k)

@@ -14,7 +14,7 @@ namespace Harmos
 struct DualRow
 {
   double directions, tied, friction;
-  double predicted[2], diagonal[2], compliance[2];
+  double predicted[2], diagonal[2], compliance[2], opening;
   double body[2];        // compact numbers
   double jacobian[2][6]; // by direction: of side a's body, of side b's
 };

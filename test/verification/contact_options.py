@@ -6,6 +6,7 @@ import tempfile
 from harness import clean, harmos, run
 from sliding_block import DECK, SQUEEZE, settings
 
+PLUG = pathlib.Path(__file__).resolve().parent / "decks/plug.yaml"
 START = {**settings(15.0, (0.31, 0.17), 8, SQUEEZE), "run/max_cycles": 25}
 CONSTRAINT = "numerics/constraint"
 ALTERNATIVES = {
@@ -65,6 +66,16 @@ def test_methods_without_a_solve_tell_by_how_much_they_miss():
         most = max(r["residual"])
         print(f"  {method}: {most:.2e}")
         assert low <= most <= high, f"{method}: {most}"
+        clean(r)
+
+
+def test_contact_that_stays_closed_takes_no_energy():
+    """A plug under pressure in its hole rings; points that share a multiplier leave no gaps to their neighbours' cost."""
+    for placement in ("midpoint", "gauss points", "vital vertices", "mortar"):
+        r = harmos(PLUG, {f"{CONSTRAINT}/placement": placement})
+        loss = max(map(abs, r["contact_loss"])) / max(r["kinetic_energy"])
+        print(f"  {placement}: contact takes {loss:.1e} of the largest kinetic energy")
+        assert loss < 0.02, (placement, loss)
         clean(r)
 
 

@@ -185,6 +185,37 @@ TEST(VitalVertices, mortar_answersAUniformPressureWithItself)
     }
 }
 
+// Two bodies touch up to y = 3 and open above. Pressed together they do not approach in the mean over any group with
+// points that touch, though others of its points still have a gap.
+TEST(VitalVertices, gapsOfSomePoints_letNoGroupThatTouchesApproach)
+{
+  for (Placement const placement : {Placement::VitalVertices, Placement::Mortar})
+  {
+    TinyScene scene(rectilinearMesh(uniform(12, 12), uniform(6, 6)),
+                    {polygonBody(0, {{0, 0}, {5.3, 0}, {5.3, 6}, {0, 6}}),
+                     polygonBody(1, {{5.3, 0}, {12, 0}, {12, 6}, {5.34, 6}, {5.3, 3}})},
+                    2, std::vector<BoundaryKind>(4, BoundaryKind::Outflow), Kinematics::Xfem, {2.0, 3.0});
+    scene.options.placement = placement;
+    double const speed = 0.1 / scene.dt;
+    scene.setVelocity([&](int material, Vector2 const &) { return Vector2{material == 0 ? speed : -speed, 0.0}; });
+    ConstraintReport const report = scene.constrain();
+    EXPECT_TRUE(report.converged) << report.residual;
+    auto const half = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.half);
+    double approach[7] = {}; // at x = 5.3
+    scene.forEachDof(
+        [&](int dof, int material, Vector2 const &node)
+        {
+          double const part = std::max(0.0, 1.0 - std::fabs(5.3 - node[0]));
+          approach[static_cast<int>(std::lround(node[1]))] += (material == 0 ? part : -part) * half(dof, 0);
+        });
+    double const own = placement == Placement::Mortar ? 4.0 : 2.0; // of one group, in the mean over its hat
+    for (int y = 1; y <= 3; ++y)
+      EXPECT_LE((approach[y - 1] + own * approach[y] + approach[y + 1]) / (own + 2.0), 1e-5 * speed) << y;
+    EXPECT_LE(approach[6], 0.04 / scene.dt);
+    EXPECT_GE(approach[6], 0.02 / scene.dt);
+  }
+}
+
 // Momentum and the work of the impulses are exact; the mean approach over the interface vanishes.
 TEST(VitalVertices, obliqueImpact_conserves)
 {
