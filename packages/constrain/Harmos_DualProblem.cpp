@@ -221,12 +221,20 @@ Spread spreadOf(std::vector<std::vector<GroupShare>> const &shares, std::vector<
   return spread;
 }
 
-/// What the rows' gaps add to the b of each unknown [m/s].
-std::vector<double> openings(std::vector<DualRow> const &rows, std::vector<int> const &first, int num_unknowns)
+/// What the rows' gaps add to the b of each unknown [m/s], where their groups take the least of it: between solids.
+/// Beside a fluid, whose pressure changes with what is open, rows that bear through gaps would give energy (fluids that
+/// ring without viscosity), and the mean in b stays.
+std::vector<double> openings(std::vector<DualRow> const &rows, std::vector<RowTrace> const &trace,
+                             std::vector<int> const &fluid, std::vector<int> const &first, int num_unknowns)
 {
   std::vector<double> opening(num_unknowns, 0.0);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    opening[first[i]] = rows[i].opening;
+  {
+    bool pressed = false;
+    for (int const material : trace[i].material)
+      pressed = pressed || (material >= 0 && !fluid.empty() && fluid[material] != 0);
+    opening[first[i]] = pressed ? 0.0 : rows[i].opening;
+  }
   return opening;
 }
 
@@ -363,7 +371,8 @@ std::vector<ContactForce> AssembledProblem::forcesOf(std::vector<double> const &
 }
 
 AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
-                                     Placement placement, Exchange const &exchange, WorkArrays const &work)
+                                     Placement placement, View<int *> const &fluid, Exchange const &exchange,
+                                     WorkArrays const &work)
 {
   View<long long *> const key = keysOf(rows, work);
   DualRows own = ownRows(system, key, work);
@@ -399,7 +408,8 @@ AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &syst
     int num_groups = 0, coarse = 0;
     auto const shares = vitalGroups(trace, rowKinds(trace, all.row), num_groups);
     assembled.spread = spreadOf(shares, all.row, order, first, num_groups, coarse);
-    assembled.groups = coarsen(problem, openings(all.row, first, unknowns), coarse, assembled.spread);
+    assembled.groups =
+        coarsen(problem, openings(all.row, trace, toHost(fluid), first, unknowns), coarse, assembled.spread);
   }
   return assembled;
 }

@@ -96,9 +96,10 @@ private:
   }
 };
 
-/// Collective: every rank gets the rows of all.
+/// Collective: every rank gets the rows of all. \param fluid ConstraintOptions::fluid
 AssembledProblem assembleDualProblem(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
-                                     Placement placement, Exchange const &exchange, WorkArrays const &work);
+                                     Placement placement, View<int *> const &fluid, Exchange const &exchange,
+                                     WorkArrays const &work);
 
 } // namespace Harmos
 

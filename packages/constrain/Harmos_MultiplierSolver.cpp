@@ -283,7 +283,8 @@ public:
   {
     if (nothingFits())
       return;
-    AssembledProblem const problem = assembleDualProblem(mesh, s_, rows, options.placement, exchange_, work_);
+    AssembledProblem const problem =
+        assembleDualProblem(mesh, s_, rows, options.placement, options.fluid, exchange_, work_);
     bool const grouped = sharesMultipliers(options.placement);
     DualSolution const dual =
         projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_,

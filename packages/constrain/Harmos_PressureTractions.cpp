@@ -9,11 +9,10 @@ namespace Harmos
 namespace
 {
 
-/// A traction along the normal of a row and across it [Pa], and the speed of its sides against each other from which on
-/// it fades [m/s].
+/// A traction along the normal of a row and across it [Pa], and sqrt(p / density) [m/s].
 struct PlannedTraction
 {
-  double along = 0.0, across = 0.0, fading_slip = 0.0;
+  double along = 0.0, across = 0.0, speed = 0.0;
 
   KOKKOS_INLINE_FUNCTION bool any() const { return along != 0.0 || across != 0.0; }
 };
@@ -215,7 +214,6 @@ private:
   KOKKOS_INLINE_FUNCTION PlannedTraction loaded(Vector2 const &part, InterfaceSegment const &a,
                                                 InterfaceSegment const &b) const
   {
-    constexpr double most_slip = 0.1; // over sqrt(p / density)
     bool const of_a = presses(a), of_b = presses(b);
     double p = of_a ? pressure.around(a.cell, a.material) : pressure.around(b.cell, b.material);
     if (of_a && of_b)
@@ -225,7 +223,7 @@ private:
     double density = of_a ? pressure.densityOf(a.cell, a.material) : 0.0;
     if (of_b)
       density = Math::max(density, pressure.densityOf(b.cell, b.material));
-    return {p * part[0], p * part[1], most_slip * Math::sqrt(p / density)};
+    return {p * part[0], p * part[1], Math::sqrt(p / density)};
   }
 
   /// Whether a row bears a pressed facet, but not over just that.
@@ -238,6 +236,31 @@ private:
            carrierOf(facing) != i;
   }
 };
+
+/// Reduce impulses that change a node's velocity by more than 20 sqrt(p / density), together with all others there.
+/// \return 1 where there were any, else 0.
+double limitPushes(ContactSystem const &s, View<double *> const &speed, View<double *[2]> const &change,
+                   View<double *[2]> const &impulse)
+{
+  constexpr double most = 20.0;
+  double any = 0.0;
+  launchReduce(
+      "Harmos::constrain::limitPushes", s.num_own,
+      KOKKOS_LAMBDA(int i, double &found) {
+        int const r = s.own(i);
+        double pushed = most * speed(i);
+        for (int c = 0; c < 8; ++c)
+          if (s.dof(r, c) >= 0)
+            pushed = Math::max(pushed, norm(Vector2{change(s.dof(r, c), 0), change(s.dof(r, c), 1)}));
+        if (!(pushed > most * speed(i)))
+          return;
+        for (int k = 0; k < 2; ++k)
+          impulse(r, k) *= most * speed(i) / pushed;
+        found = 1.0;
+      },
+      Kokkos::Max<double>(any));
+  return s.num_own > 0 ? Math::max(any, 0.0) : 0.0;
+}
 
 } // namespace
 
@@ -278,11 +301,11 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
   found.rows.row = work.unset<ContactRow *>("Harmos::constrain::traction_row", found.rows.count);
   found.rows.own = work.unset<int *>("Harmos::constrain::own_traction", found.rows.count);
   found.load = work.unset<double *[2]>("Harmos::constrain::traction_load", found.rows.count);
-  found.fading_slip = work.unset<double *>("Harmos::constrain::fading_slip", found.rows.count);
+  found.speed = work.unset<double *>("Harmos::constrain::traction_speed", found.rows.count);
   View<ContactRow *> const row = found.rows.row;
   View<int *> const own = found.rows.own;
   View<double *[2]> const load = found.load;
-  View<double *> const fading_slip = found.fading_slip;
+  View<double *> const speed = found.speed;
   launchFor(
       "Harmos::constrain::makeTractions", count, KOKKOS_LAMBDA(int i) {
         int r = place(i);
@@ -294,7 +317,7 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
           own(r) = r;
           load(r, 0) = traction(i, k).along;
           load(r, 1) = traction(i, k).across;
-          fading_slip(r) = traction(i, k).fading_slip;
+          speed(r) = traction(i, k).speed;
           ++r;
         }
       });
@@ -304,24 +327,27 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
 PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,
                                   double kick, Exchange const &exchange, WorkArrays const &work)
 {
+  constexpr double most_slip = 0.1; // over sqrt(p / density)
   PressureImpulses found;
   found.system = system;
   View<double *[2]> const impulse = work.zeros<double *[2]>("Harmos::constrain::pressure_impulse", system.num_rows);
   View<ContactRow *> const row = tractions.rows.row;
   View<double *[2]> const load = tractions.load;
-  View<double *> const fading_slip = tractions.fading_slip;
+  View<double *> const speed = tractions.speed;
   ContactSystem const s = system;
   launchFor(
       "Harmos::constrain::pressureImpulses", s.num_own, KOKKOS_LAMBDA(int i) {
         int const r = s.own(i);
         ContactRow const &facet = row(r);
         double const slip = norm(relativeVelocity(facet, before.velocity, before.bodies));
-        double const scale = kick * facet.length * Math::clamp(2.0 - slip / fading_slip(i), 0.0, 1.0);
+        double const scale = kick * facet.length * Math::clamp(2.0 - slip / (most_slip * speed(i)), 0.0, 1.0);
         impulse(r, 0) = scale * load(i, 0);
         impulse(r, 1) = scale * load(i, 1);
       });
   ContactOperator const contact(found.system, tractions.rows, exchange, work);
   contact.push(impulse);
+  if (exchange.max(limitPushes(s, speed, contact.change(), impulse)) > 0.0)
+    contact.push(impulse);
   found.solution.impulse = impulse;
   found.solution.change = contact.change();
   found.solution.body_change = contact.bodyChange();

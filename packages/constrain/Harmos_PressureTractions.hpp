@@ -35,7 +35,7 @@ struct PressureTractions
   View<double *[3]> pressure; // in: PairStress::pressure
   ContactRows rows;           // one for each traction; num_multipliers counts two for each
   View<double *[2]> load;     // num_own: along the row's normal and across it [Pa]
-  View<double *> fading_slip; // num_own: speed of the sides against each other from which on the traction fades [m/s]
+  View<double *> speed;       // num_own: sqrt(p / density) of the fluid [m/s]
 };
 
 /// The tractions of the segments of owned cells. Of two fluids the slave's facets count, about an axis none; bonded
@@ -52,7 +52,9 @@ struct PressureImpulses
 };
 
 /// Impulses of the tractions over `kick`. They do work on what slides: where the sides pass each other by 0.1
-/// sqrt(p / density) they fade, at twice that they are none.
+/// sqrt(p / density) they fade, at twice that they are none. Nor do they change a node's velocity by more than 20
+/// sqrt(p / density), all together: what two bodies squeeze to a thousandth of a cell is so light that it would leave
+/// with a hundred times that where the rows' impulses are not the pressure (doc/decisions/0031).
 /// \param system Of tractions.rows, at v*. \param before v^{n-1/2}. Collective.
 PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,
                                   double kick, Exchange const &exchange, WorkArrays const &work);
