@@ -193,6 +193,18 @@ PairInteraction wallInteraction(Boundary const &wall)
   return interaction;
 }
 
+/// By field: internal energy per mass of its warmest body, or of what flows in.
+std::vector<double> warmestBodies(Deck const &deck)
+{
+  std::vector<double> warmest(deck.fields.size(), 0.0);
+  for (BodySpec const &body : deck.bodies)
+    warmest[body.field] = std::max(warmest[body.field], body.internal_energy);
+  for (Boundary const &side : deck.boundary)
+    if (side.kind == BoundaryKind::Inflow)
+      warmest[side.material] = std::max(warmest[side.material], side.internal_energy);
+  return warmest;
+}
+
 } // namespace
 
 Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange)
@@ -237,6 +249,7 @@ Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange)
     }
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
   scene.remap = deck.remap;
+  scene.remap.start_energy = deviceCopy("start_energy", warmestBodies(deck));
   scene.prescribed = deck.prescribed;
   if (deck.smoother.moves())
     scene.target_mesh = smoothedMesh(deck.smoother, scene.boundary, exchange);

@@ -281,6 +281,7 @@ void convertNumerics(DeckChecker const &check, ParameterList const &list, Deck &
   deck.remap.merge_below = remap.get<double>("merge_below");
   deck.remap.close_void_below = remap.get<double>("close_void_below");
   deck.remap.close_void_beside_gas = remap.get<double>("close_void_beside_gas");
+  deck.remap.cool_gas_below = remap.get<double>("cool_gas_below");
   deck.remap.part_overlaps = remap.get<bool>("part_overlaps");
   deck.remap.return_kinetic_defect = remap.get<bool>("return_kinetic_defect");
 }

@@ -39,7 +39,10 @@ struct RemapOptions
   double close_void_below = 1e-8; // spurious void below this part of a cell, with no void around, is closed
   double close_void_beside_gas = 0.0; // void below this part of a cell (and a tenth of the gas there) that a gas
                                       // fills, which then gives way to overlaps too; 0: never
-  bool swept_faces = true;            // pure regions by swept faces; false: intersection everywhere
+  double cool_gas_below = 0.1; // gas that fills less than this part of a cell is no warmer than twice what is around or
+                               // was there at the start (start_energy); the rest heats liquids and solids of the cell
+  View<double *> start_energy; // by material: internal energy per mass of its warmest body [J/kg]; none: energy0
+  bool swept_faces = true;     // pure regions by swept faces; false: intersection everywhere
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
                                       // where damage is tracked, which is carried in its place
   double shortest_bent_edge = 0.1;    // of the cell size; edges inside cells below it stay straight (bendOf)

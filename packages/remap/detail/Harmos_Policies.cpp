@@ -14,6 +14,7 @@ constexpr double full_tolerance = 1e-12; // of the cell: sums of fractions this 
 constexpr double least_share = 1e-10;    // of the cell: what deformable material keeps, at most, under a rigid body
 constexpr double most_volume = 2.0;      // of the cell: what a pair's mass times its specific volume may be
 constexpr double most_gas_change = 0.1;  // of the gas in a cell: what it takes of overlap and void in one remap
+constexpr double most_warmth = 2.0;      // over that of the gas around: what heat thin gas keeps
 constexpr double shared_by_all = 1e-5;   // of the cell: overlap and void up to this are no matter of a gas alone
 
 /// Whether a material is soft against its pressure: its bulk modulus is at most ten times that.
@@ -255,6 +256,48 @@ struct FinishFunctor
     }
   }
 
+  /// Internal energy per mass that gas has where it is not thin: its mean, by mass, in the cells around, or that of its
+  /// warmest body at the start if larger.
+  KOKKOS_INLINE_FUNCTION double warmth(int cell, int material) const
+  {
+    double mass = 0.0, energy = 0.0;
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
+    {
+      int const pair = in.pairs.find(in.mesh.cell_neighbour.item(j), material);
+      if (pair < 0 || in.state.record(pair, VolumeFraction) < in.options.cool_gas_below)
+        continue;
+      mass += in.state.record(pair, Mass);
+      energy += in.state.record(pair, Mass) * in.state.record(pair, InternalEnergy);
+    }
+    bool const known = in.options.start_energy.extent(0) > 0;
+    double const start = known ? in.options.start_energy(material) : in.materials(material).energy0;
+    return mass > 0.0 ? Math::max(start, energy / mass) : start;
+  }
+
+  /// Thin gas gives the liquids and solids of its cell what it is too warm, by mass.
+  KOKKOS_INLINE_FUNCTION void coolThinGas(int index, int cell) const
+  {
+    double heat = 0.0, takers = 0.0;
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
+      if (kept(c) && !in.isRigid(acceptors.material(c)) && !isGasNow(c))
+        takers += acceptors.record(c, Mass);
+    if (!(takers > 0.0))
+      return;
+    for (int c = acceptors.begin(index); c < acceptors.end(index); ++c)
+    {
+      if (!isGasNow(c) || acceptors.record(c, VolumeFraction) >= in.options.cool_gas_below)
+        continue;
+      double const surplus = acceptors.record(c, InternalEnergy) - most_warmth * warmth(cell, acceptors.material(c));
+      if (!(surplus > 0.0))
+        continue;
+      heat += surplus * acceptors.record(c, Mass);
+      acceptors.record(c, InternalEnergy) -= surplus;
+    }
+    for (int c = acceptors.begin(index); heat > 0.0 && c < acceptors.end(index); ++c)
+      if (kept(c) && !in.isRigid(acceptors.material(c)) && !isGasNow(c))
+        acceptors.record(c, InternalEnergy) += heat / takers;
+  }
+
   KOKKOS_INLINE_FUNCTION void operator()(int index) const
   {
     int const cell = classes.interface_cell(index);
@@ -286,6 +329,8 @@ struct FinishFunctor
     setFractions(index, cell, deformable, volume);
     if (full)
       makeFull(index);
+    if (in.options.cool_gas_below > 0.0)
+      coolThinGas(index, cell);
   }
 };
 

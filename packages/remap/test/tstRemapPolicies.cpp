@@ -201,6 +201,50 @@ TEST(Policies, gas_takesNoMoreThanATenthOfIt)
   EXPECT_NEAR(fieldOf(squeezed, 1, 1, VolumeFraction), 0.5 * 0.9 / (1.0 + 0.08 - 0.05), 1e-14);
 }
 
+/// Energies per mass of what lies beside a body in half of a cell, and of the body, and the cell's energy, after a
+/// remap.
+struct CoolingCell
+{
+  double fluid, body, of_cell;
+};
+
+CoolingCell cooled(double energy, double cool_gas_below, double start_energy, double sound_speed = 0.0)
+{
+  Scene scene = bodyBesideGas(0.01, sound_speed);
+  scene.options.close_void_beside_gas = 0.0;
+  scene.options.cool_gas_below = cool_gas_below;
+  scene.options.start_energy = View<double *>("start_energy", 2);
+  Kokkos::deep_copy(scene.options.start_energy, start_energy);
+  scene.state.record(scene.pairs.find(1, 1), InternalEnergy) = energy;
+  RemapResult const result = scene.remapped();
+  double of_cell = 0.0;
+  for (int pair = result.pairs.offset(1); pair < result.pairs.offset(2); ++pair)
+    of_cell += result.state.record(pair, Mass) * result.state.record(pair, InternalEnergy);
+  return {fieldOf(result, 1, 1, InternalEnergy), fieldOf(result, 1, 0, InternalEnergy), of_cell};
+}
+
+TEST(Policies, thinGas_isNoWarmerThanTwiceWhatWasOrIsAround)
+{
+  EXPECT_NEAR(cooled(10.0, 0.6, 0.0).fluid, 2.0, 1e-14);
+  EXPECT_NEAR(cooled(10.0, 0.6, 3.0).fluid, 6.0, 1e-14);
+  EXPECT_NEAR(cooled(1.9, 0.6, 0.0).fluid, 1.9, 1e-14);
+}
+
+TEST(Policies, heatOfThinGas_goesToWhatLiesBesideIt)
+{
+  CoolingCell const kept = cooled(10.0, 0.0, 0.0), given = cooled(10.0, 0.6, 0.0);
+  EXPECT_NEAR(kept.body, 1.0, 1e-14);
+  EXPECT_GT(given.body, 2.0);
+  EXPECT_NEAR(given.of_cell, kept.of_cell, 1e-14 * kept.of_cell);
+}
+
+TEST(Policies, whatIsNoThinGas_keepsItsHeat)
+{
+  EXPECT_NEAR(cooled(10.0, 0.0, 0.0).fluid, 10.0, 1e-13);
+  EXPECT_NEAR(cooled(10.0, 0.4, 0.0).fluid, 10.0, 1e-13);
+  EXPECT_NEAR(cooled(10.0, 0.6, 0.0, 1500.0).fluid, 10.0, 1e-13);
+}
+
 TEST(Policies, gasThatIsNotAskedTo_takesNothing)
 {
   for (double const by : {-1e-3, 0.01})
