@@ -256,9 +256,9 @@ void warnOfGain(Run &run)
   char text[240];
   std::snprintf(
       text, sizeof text,
-      "contact gave energy, %.2e (contact_loss) beside %.2e in the scene at the start: what it moved is not to "
-      "be trusted. Gas that is squeezed to remnants between bodies does that, and penalties that are too stiff",
-      -l.contact_loss, l.energy0);
+      "contact gave energy, %.2e (contact_loss) beside %.2e that the scene had at most: what it moved is not "
+      "to be trusted. Gas that is squeezed to remnants between bodies does that, and penalties that are too stiff",
+      -l.contact_loss, l.largest_energy);
   warn(run, text);
 }
 

@@ -28,6 +28,8 @@ struct GroupShare
 /// (cells that are parallelograms; quadratic times linear), and the multiplier is the traction sum_g N_g P_g / integral
 /// of N_g.
 ///
+/// Between solids the gap of a group is the least of its rows', beside fluids their mean (decision 0010).
+///
 /// \return By row: the shares of groups in its impulse, those of a group adding up to one over its rows.
 /// Bechet, Moes & Wohlmuth, Int. J. Numer. Meth. Engng 78 (2009) 931-954; Bernardi, Maday & Patera, in: Asymptotic and
 /// numerical methods for PDEs with critical parameters, NATO ASI C 384 (1993) 269-286 (mortar).

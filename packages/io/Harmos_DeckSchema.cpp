@@ -284,9 +284,8 @@ void addNumerics(ParameterList &list)
       "a gas that is slow against sound fills void below this part of a cell (0.01) and a tenth of the gas there, and "
       "gives way to overlaps as far; 0: never");
   add(m, "cool_gas_below", remap.cool_gas_below, number(between(0.0, 0.5)),
-      "gas that fills less than this part of a cell beside liquids or solids is no warmer than twice the gas around "
-      "or, "
-      "if more, its warmest body at the start; they take the rest; 0: never");
+      "gas that fills less than this part of a cell beside liquids or solids is no warmer than twice the gas around it "
+      "or, if more, its warmest body at the start; they take the rest; 0: never");
   add(m, "part_overlaps", remap.part_overlaps, rulesOf(KeyType::Bool),
       "what moved regions have in common of bodies that have flowed (plastic strain above 0.1) and pass each other is "
       "divided between them before the remap");

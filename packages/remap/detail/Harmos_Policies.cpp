@@ -257,7 +257,7 @@ struct FinishFunctor
   }
 
   /// Internal energy per mass that gas has where it is not thin: its mean, by mass, in the cells around, or that of its
-  /// warmest body at the start if larger.
+  /// warmest body at the start if larger. Not above zero where neither tells: laws may count their energies so.
   KOKKOS_INLINE_FUNCTION double warmth(int cell, int material) const
   {
     double mass = 0.0, energy = 0.0;
@@ -287,8 +287,9 @@ struct FinishFunctor
     {
       if (!isGasNow(c) || acceptors.record(c, VolumeFraction) >= in.options.cool_gas_below)
         continue;
-      double const surplus = acceptors.record(c, InternalEnergy) - most_warmth * warmth(cell, acceptors.material(c));
-      if (!(surplus > 0.0))
+      double const most = most_warmth * warmth(cell, acceptors.material(c));
+      double const surplus = acceptors.record(c, InternalEnergy) - most;
+      if (!(most > 0.0 && surplus > 0.0))
         continue;
       heat += surplus * acceptors.record(c, Mass);
       acceptors.record(c, InternalEnergy) -= surplus;

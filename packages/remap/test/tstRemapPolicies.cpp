@@ -208,13 +208,16 @@ struct CoolingCell
   double fluid, body, of_cell;
 };
 
-CoolingCell cooled(double energy, double cool_gas_below, double start_energy, double sound_speed = 0.0)
+CoolingCell cooled(double energy, double cool_gas_below, double start_energy, double sound_speed = 0.0,
+                   double around = 1.0)
 {
   Scene scene = bodyBesideGas(0.01, sound_speed);
   scene.options.close_void_beside_gas = 0.0;
   scene.options.cool_gas_below = cool_gas_below;
   scene.options.start_energy = View<double *>("start_energy", 2);
   Kokkos::deep_copy(scene.options.start_energy, start_energy);
+  for (int cell = 2; cell < 4; ++cell)
+    scene.state.record(scene.pairs.find(cell, 1), InternalEnergy) = around;
   scene.state.record(scene.pairs.find(1, 1), InternalEnergy) = energy;
   RemapResult const result = scene.remapped();
   double of_cell = 0.0;
@@ -228,6 +231,11 @@ TEST(Policies, thinGas_isNoWarmerThanTwiceWhatWasOrIsAround)
   EXPECT_NEAR(cooled(10.0, 0.6, 0.0).fluid, 2.0, 1e-14);
   EXPECT_NEAR(cooled(10.0, 0.6, 3.0).fluid, 6.0, 1e-14);
   EXPECT_NEAR(cooled(1.9, 0.6, 0.0).fluid, 1.9, 1e-14);
+}
+
+TEST(Policies, thinGasWithoutAnythingToCompareWith_keepsItsHeat)
+{
+  EXPECT_NEAR(cooled(10.0, 0.6, 0.0, 0.0, 0.0).fluid, 10.0, 1e-13);
 }
 
 TEST(Policies, heatOfThinGas_goesToWhatLiesBesideIt)
