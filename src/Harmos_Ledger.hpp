@@ -43,6 +43,8 @@ struct Ledger
   double merged = 0.0;
   double bounded = 0.0;               // pairs, summed over cycles, whose specific volume was bounded
   double closed_volume = 0.0;         // spurious void that was closed [m^2]
+  double gas_work = 0.0;              // by gas on void that it filled, less overlap; part of contact_loss [J/m]
+  double gas_heat = 0.0;              // that thin gas gave to what lies beside it [J/m]
   double greedy_cells = 0.0;          // more than five components, ordered one by one; summed over cycles
   double out_of_range = 0.0;          // pair steps outside of the equation of state's range
   double unfinished_interfaces = 0.0; // mixed cells, summed over cycles, whose line's angle met its bound of iterations

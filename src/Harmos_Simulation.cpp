@@ -24,7 +24,7 @@ namespace
 void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
 {
   RemapReport const &remap = report.remap;
-  double sums[15] = {remap.kinetic_loss,
+  double sums[17] = {remap.kinetic_loss,
                      remap.overlap_volume,
                      remap.void_volume,
                      remap.outflow_mass,
@@ -38,10 +38,14 @@ void book(Ledger &l, CycleReport const &report, Exchange const &exchange)
                      static_cast<double>(report.light_nodes),
                      remap.closed_volume,
                      static_cast<double>(report.reconstruction.greedy_cells),
-                     static_cast<double>(remap.bounded)};
-  exchange.sum(sums, 15);
+                     static_cast<double>(remap.bounded),
+                     remap.gas_work,
+                     remap.gas_heat};
+  exchange.sum(sums, 17);
   l.external_work += report.external_work;
-  l.contact_loss += report.constraint.contact_loss;
+  l.contact_loss += report.constraint.contact_loss + sums[15];
+  l.gas_work += sums[15];
+  l.gas_heat += sums[16];
   l.external_impulse_x += report.external_impulse[0];
   l.external_impulse_y += report.external_impulse[1];
   l.remap_loss += sums[0];
@@ -204,6 +208,8 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.slowed_light_nodes = std::llround(run.ledger.light_nodes);
   s.repeated_cycles = std::llround(run.ledger.repeats);
   s.closed_void_volume = run.ledger.closed_volume;
+  s.gas_work = run.ledger.gas_work;
+  s.gas_heat = run.ledger.gas_heat;
   s.greedy_cells = std::llround(run.ledger.greedy_cells);
   s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);
   if (run.scene.prescribed.kind != FieldKind::None)

@@ -63,17 +63,17 @@ struct FacetPressure
   CellMaterialPairs pairs;
   View<double *[3]> pressure; // PairStress::pressure
 
-  /// Mean over a cell and those around it, each at most `steep` of the cell's own off that.
+  /// Mean by volume over a cell and those around it, of which each counts with at most 1.1 times the cell's own.
   KOKKOS_INLINE_FUNCTION double around(int cell, int material) const
   {
-    constexpr double steep = 0.1;
-    double const own = pressure(pairs.find(cell, material), 0), off = steep * Math::fabs(own);
+    constexpr double most = 1.1;
+    double const largest = most * Math::max(pressure(pairs.find(cell, material), 0), 0.0);
     double load = 0.0, volume = 0.0;
     auto const add = [&](int pair)
     {
       if (pair < 0)
         return;
-      load += Math::clamp(pressure(pair, 0), own - off, own + off) * pressure(pair, 1);
+      load += Math::clamp(pressure(pair, 0), 0.0, largest) * pressure(pair, 1);
       volume += pressure(pair, 1);
     };
     add(pairs.find(cell, material));
@@ -220,9 +220,9 @@ private:
       p = Math::min(p, pressure.around(b.cell, b.material));
     if (!(p > 0.0))
       return {};
-    double density = of_a ? pressure.densityOf(a.cell, a.material) : 0.0;
-    if (of_b)
-      density = Math::max(density, pressure.densityOf(b.cell, b.material));
+    double density = of_a ? pressure.densityOf(a.cell, a.material) : pressure.densityOf(b.cell, b.material);
+    if (of_a && of_b)
+      density = Math::min(density, pressure.densityOf(b.cell, b.material));
     return {p * part[0], p * part[1], Math::sqrt(p / density)};
   }
 

@@ -281,8 +281,8 @@ void addNumerics(ParameterList &list)
   add(m, "close_void_below", remap.close_void_below, number(between(0.0, 0.01)),
       "spurious void below this part of a cell is closed");
   add(m, "close_void_beside_gas", remap.close_void_beside_gas, number(between(0.0, 0.1)),
-      "a gas that is slow against sound fills void below this part of a cell (0.01) and a tenth of the gas there, and "
-      "gives way to overlaps as far; 0: never");
+      "a gas fills void below this part of a cell and a tenth of the gas there, gives way to overlaps as far, and does "
+      "the work of that; 0: never");
   add(m, "cool_gas_below", remap.cool_gas_below, number(between(0.0, 0.5)),
       "gas that fills less than this part of a cell beside liquids or solids is no warmer than twice the gas around it "
       "or, if more, its warmest body at the start; they take the rest; 0: never");

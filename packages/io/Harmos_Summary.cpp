@@ -103,6 +103,8 @@ std::string summaryText(Summary const &s)
   object.add("slowed_light_nodes", s.slowed_light_nodes);
   object.add("repeated_cycles", s.repeated_cycles);
   object.add("closed_void_volume", s.closed_void_volume);
+  object.add("gas_work", s.gas_work);
+  object.add("gas_heat", s.gas_heat);
   object.add("greedy_cells", s.greedy_cells);
   object.add("unfinished_interfaces", s.unfinished_interfaces);
   if (!s.shape_errors.empty())

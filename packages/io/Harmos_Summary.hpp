@@ -35,6 +35,8 @@ struct Summary
   long long bounded_volumes = 0;    // pairs, over all cycles, whose specific volume the remap bounded
   long long merged_fragments = 0;
   double closed_void_volume = 0.0;     // spurious void that was closed, over all cycles [m^2]
+  double gas_work = 0.0;               // by gas on void that it filled, less overlap that it gave way [J/m]
+  double gas_heat = 0.0;               // that thin gas gave to what lies beside it [J/m]
   long long greedy_cells = 0;          // mixed cells, over all cycles, of more than five components
   long long unfinished_interfaces = 0; // mixed cells, over all cycles, whose line's angle met its bound of iterations
   std::vector<std::pair<std::string, double>> shape_errors; // prescribed field: errors against the exact shapes [m^2]

@@ -78,7 +78,8 @@ struct ConditionGather
     for (int i = 0; i < directions; ++i)
     {
       double const length = norm(sum[i]);
-      result.normal[i] = (1.0 / length) * sum[i];
+      // divided, so that a normal along an axis is exactly that: a wall's node must not leave it by round-off
+      result.normal[i] = Vector2{sum[i][0] / length, sum[i][1] / length};
       result.value[i] = flux[i] / length;
     }
     return result;

@@ -246,6 +246,8 @@ void addBookings(Classes const &classes, Bookings const &bookings, RemapReport &
   report.closed_volume += sum[BookClosed];
   report.merged += static_cast<long long>(sum[BookMerged]);
   report.bounded += static_cast<long long>(sum[BookBounded]);
+  report.gas_work += sum[BookGasWork];
+  report.gas_heat += sum[BookGasHeat];
   report.outflow_mass += sum[BookOutMass] - sum[BookInMass];
   out_kinetic = sum[BookOutKinetic] - sum[BookInKinetic];
   report.outflow_energy += out_kinetic + sum[BookOutEnergy] - sum[BookInEnergy];

@@ -9,7 +9,7 @@ from sliding_block import SQUEEZE
 from stability_atlas import BLOCKS, METHODS, OBLIQUE, block, deviation, mean_step, oblique, ring
 
 DECK = ROOT / "test/verification/decks/sliver.yaml"
-GAS_FILLS = {"numerics/remap/close_void_beside_gas": 0.01}
+VOID_STAYS = {"numerics/remap/close_void_beside_gas": 0.0}
 
 
 def box(sliver, **more):
@@ -142,7 +142,7 @@ def test_gases_rest_at_each_others_corners():
     # Without tractions for what rows leave of the pressure 1e-3 of the internal energy and more drives jets along the interface in 5 ms.
     for inner in "eos: ideal gas, density: 1.2, gamma: 1.4", "eos: ideal gas, density: 0.17, gamma: 1.66", "eos: stiffened, density: 1000.0, sound_speed: 1500.0":
         for shape in "rectangle, size: [0.7, 0.7], center: [0.2, 0.2], angle: 33.0", "disc, radius: 0.4, center: [0.213, 0.197]":
-            for more, end_time in (({}, 5e-3), (GAS_FILLS, 1e-2)):
+            for more, end_time in ((VOID_STAYS, 5e-3), ({}, 1e-2)):
                 r = harmos(ROOT / "test/verification/decks/gas_in_a_box.yaml", {
                     "boundaries": "{}", "materials": f"{{air: {{eos: ideal gas, density: 1.2, gamma: 1.4}}, other: {{{inner}}}}}",
                     "bodies": "{gas: {material: air, shape: rectangle, center: [0.2, 0.2], size: [1.6, 1.6], pressure: 1.0e5}, "
@@ -157,11 +157,23 @@ def test_air_stays_where_it_is_over_a_block_that_begins_to_float():
     # fills what opens, 3e-4 to 0.17.
     # The last place has its sides on cell faces: films of air that rays could not pass gave 21 J/m there.
     for center in "[0.307, 0.437]", "[0.311, 0.433]", "[0.318, 0.4355]", "[0.3, 0.43]":
-        for more, bound in (({}, 0.1), (GAS_FILLS, 2e-3)):
+        for more, bound in ((VOID_STAYS, 0.1), ({}, 2e-3)):
             r = harmos(ROOT / "test/verification/decks/floating_block.yaml", {"bodies/block/center": center, **more})
-            check(f"block at {center}{', air fills' if more else ''}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), bound)
+            check(f"block at {center}{', void stays' if more else ''}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), bound)
             check("energy ledger", r.summary["energy_error"], 1e-10)
             clean(r)
+
+
+def test_a_block_floats_in_still_air():
+    # Until tractions were no larger than the cells around bear, and gas did the work of what it fills, 4 kJ/m were taken by 0.12 s (sides on
+    # cell faces), or it ended early.
+    for center in "[0.3, 0.43]", "[0.311, 0.433]":
+        r = harmos(ROOT / "test/verification/decks/floating_block.yaml", {"bodies/block/center": center, "run/end_time": 0.12})
+        check(f"block at {center}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), 1e-2)
+        check(f"block at {center}: energy that contact takes or gives over that of the scene", max(map(abs, r["contact_loss"])) / r.last("internal_energy"), 2e-5)
+        check(f"block at {center}: overlap", r.last("overlap_volume"), 1e-4)
+        check("energy ledger", r.summary["energy_error"], 1e-10)
+        clean(r)
 
 
 def test_fluids_that_ring_gain_nothing_at_long_steps():
@@ -235,7 +247,7 @@ def test_gas_that_bodies_squeeze_to_films_ends_no_run():
         r = harmos(ROOT / "test/verification/decks/discs_in_gas.yaml", {"bodies/a/shift": str(of_a), "bodies/b/shift": str(of_b), "run/max_cycles": 2500},
                    expect=None)
         check(f"discs at {of_a}, {of_b}: end time, short of", 0.05 - r.last("time"), 1e-9)
-        check(f"discs at {of_a}, {of_b}: energy that contact gave over the kinetic energy at the start", given_by_contact(r) / r.first("kinetic_energy"), 1e-3)
+        check(f"discs at {of_a}, {of_b}: energy that contact gave over the kinetic energy at the start", given_by_contact(r) / r.first("kinetic_energy"), 5e-3)
         clean(r)
 
 
@@ -248,9 +260,9 @@ def test_a_disc_sets_no_more_air_in_motion_than_it_displaces():
             "materials/steel/sound_speed": 150.0, "materials/steel/shear_modulus": 6e7,
             "bodies": "{gas: {material: air, shape: rectangle, center: [0.5, 0.5], size: [1.0, 1.0], pressure: 1.0e5}, box: {material: steel, "
                       f"shape: disc, center: [0.513, 0.6], radius: 0.1, pressure: 1.0e5, cut: true, velocity: [0.0, {-speed}]}}}}",
-            "run/end_time": end_time, **GAS_FILLS})
+            "run/end_time": end_time})
         check(f"{speed} m/s: kinetic energy of the air over what an unbounded fluid has",
-              max(r["gas.kinetic_energy"]) / (0.5 * 1.2 * pi * 0.1**2 * speed**2), 4.0)
+              max(r["gas.kinetic_energy"]) / (0.5 * 1.2 * pi * 0.1**2 * speed**2), 5.0)
         check(f"{speed} m/s: volume of the disc, off", abs(r.last("box.volume") / r.first("box.volume") - 1.0), 1e-3)
         clean(r)
 
@@ -258,12 +270,12 @@ def test_a_disc_sets_no_more_air_in_motion_than_it_displaces():
 def test_a_box_that_flies_keeps_its_gas():
     # 0.50 and 1.24 m2 of gas in the end before rows beside fluids left nothing of their pressure, of 0.15. Where gas does not fill
     # what opens its kinetic energy is off by 1.5e-2.
-    for more, volume, kinetic in (({}, 2e-3, 0.02), (GAS_FILLS, 1e-3, 1e-3)):
+    for more, volume, kinetic in ((VOID_STAYS, 2e-3, 0.02), ({}, 1e-3, 1e-3)):
         for cells in 16, 32:
             r = harmos(ROOT / "test/verification/decks/gas_in_a_box.yaml", {
                 "bodies/box/angle": 25.0, "bodies/gas/angle": 25.0, "bodies/box/velocity": "[50.0, 30.0]", "bodies/gas/velocity": "[50.0, 30.0]",
                 "mesh/x/cells": cells, "mesh/y/cells": cells, "run/end_time": 4e-3, **more})
-            what = f"{cells} cells{', gas fills' if more else ''}"
+            what = f"{cells} cells{', void stays' if more else ''}"
             check(f"{what}: volume of the gas, off", abs(r.last("gas.volume") / r.first("gas.volume") - 1.0), volume)
             check(f"{what}: kinetic energy of the gas, off", max(abs(e / r.first("gas.kinetic_energy") - 1.0) for e in r["gas.kinetic_energy"]), kinetic)
             clean(r)

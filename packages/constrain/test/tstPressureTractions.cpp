@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TinyScene.hpp"
 
+#include <Harmos_ContactRows.hpp>
+#include <Harmos_PressureTractions.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -199,4 +202,43 @@ TEST(PressureTractions, doNotHoldVoidOpenThatThePressureCloses)
   press(scene, pressure);
   scene.constrain();
   EXPECT_EQ(largest(without, scene.half), 0.0);
+}
+
+/// Tractions of one cell where its fluid has `own` times the pressure of all others, over those where it has as much.
+double loadOver(double own)
+{
+  TinyScene scene = steps(1, 2.0);
+  int const cell = 3 * 8 + 4;
+  auto const loads = [&](double p)
+  {
+    press(scene, pressure);
+    scene.stress.pressure(scene.pairs.find(cell, 1), 0) = p;
+    PressureTractions tractions;
+    tractions.pressure = scene.stress.pressure;
+    findContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions,
+                    buildBodyTable(scene.bodies_n, 2), scene.bonds, scene.options, *scene.exchange,
+                    {scene.predicted, buildBodyTable(scene.bodies_n, 2)}, scene.dt, nullptr, {}, {}, &tractions);
+    double sum = 0.0;
+    for (int r = 0; r < tractions.rows.count; ++r)
+      if (tractions.rows.row(r).material_a == 1 && tractions.rows.row(r).cell_a == cell)
+        sum += std::hypot(tractions.load(r, 0), tractions.load(r, 1));
+    return sum;
+  };
+  return loads(own * pressure) / loads(pressure);
+}
+
+TEST(PressureTractions, areTheMeanOfPressuresUpToTheCellsOwn)
+{
+  TinyScene const scene = steps(1, 2.0);
+  int const cell = 3 * 8 + 4;
+  double const part = scene.record(scene.pairs.find(cell, 1), VolumeFraction);
+  double volume = 0.0;
+  for (int row = 2; row < 5; ++row)
+    for (int column = 3; column < 6; ++column)
+      if (int const pair = scene.pairs.find(8 * row + column, 1); pair >= 0)
+        volume += scene.record(pair, VolumeFraction);
+  double const own = part / volume;
+  EXPECT_NEAR(loadOver(3.0), 1.0 + 2.0 * own, 1e-12);
+  EXPECT_NEAR(loadOver(1.05), 1.0 + 0.05 * own, 1e-12);
+  EXPECT_NEAR(loadOver(0.2), 0.2 * (1.1 - 0.1 * own), 1e-12);
 }

@@ -218,6 +218,8 @@ TEST(Summary, file_holdsEveryKeyInOrder)
                           "slowed_light_nodes",
                           "repeated_cycles",
                           "closed_void_volume",
+                          "gas_work",
+                          "gas_heat",
                           "greedy_cells",
                           "unfinished_interfaces",
                           "warnings",

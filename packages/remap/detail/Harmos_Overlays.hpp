@@ -54,6 +54,8 @@ enum Booking : int
   BookClosed,
   BookMerged,
   BookBounded,
+  BookGasWork,
+  BookGasHeat,
   BookFailures,
   BookFailedMaterial, // of the first failed donor, plus one
   BookOutMass,

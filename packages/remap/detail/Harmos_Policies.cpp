@@ -14,8 +14,8 @@ constexpr double full_tolerance = 1e-12; // of the cell: sums of fractions this 
 constexpr double least_share = 1e-10;    // of the cell: what deformable material keeps, at most, under a rigid body
 constexpr double most_volume = 2.0;      // of the cell: what a pair's mass times its specific volume may be
 constexpr double most_gas_change = 0.1;  // of the gas in a cell: what it takes of overlap and void in one remap
+constexpr double shared_by_all = 1e-6;   // of the cell: overlap and void up to this are no matter of a gas alone
 constexpr double most_warmth = 2.0;      // over that of the gas around: what heat thin gas keeps
-constexpr double shared_by_all = 1e-5;   // of the cell: overlap and void up to this are no matter of a gas alone
 
 /// Whether a material is soft against its pressure: its bulk modulus is at most ten times that.
 KOKKOS_INLINE_FUNCTION bool isGas(Material const &law, double specific_volume, double internal_energy)
@@ -175,11 +175,32 @@ struct FinishFunctor
     return volume;
   }
 
-  /// Void that a gas fills, whatever is around: in its own cells what it can take, beside them what a merged fragment
-  /// of it may have left.
+  /// Whether the deformable and rigid materials of a cell and of those around it are more than one, or a contact wall
+  /// is among them: a gas alone with void has a free surface there, which nothing opens.
+  KOKKOS_INLINE_FUNCTION bool meetsOthers(int cell) const
+  {
+    int first = -1;
+    auto const differs = [&](int other)
+    {
+      for (int pair = in.pairs.offset(other); pair < in.pairs.offset(other + 1); ++pair)
+      {
+        first = first < 0 ? in.pairs.material(pair) : first;
+        if (in.pairs.material(pair) != first)
+          return true;
+      }
+      return false;
+    };
+    bool any = (classes.openAround(cell) & ContactBit) != 0 || differs(cell);
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1) && !any; ++j)
+      any = differs(in.mesh.cell_neighbour.item(j));
+    return any;
+  }
+
+  /// Void that a gas fills, whatever void is around: in its own cells what it can take, beside them what a merged
+  /// fragment of it may have left.
   KOKKOS_INLINE_FUNCTION double mostFilledByGas(int index, int cell) const
   {
-    if (in.options.close_void_beside_gas == 0.0)
+    if (in.options.close_void_beside_gas == 0.0 || !meetsOthers(cell))
       return 0.0;
     double const cell_volume = in.mesh.cell_volume(cell), gas = gasVolume(index);
     if (gas > 0.0)
@@ -231,16 +252,51 @@ struct FinishFunctor
       bookings(index, BookBounded) += 1.0;
   }
 
+  /// Mean pressure by volume of a material over a cell, where it has `own` in `volume`, and the cells around, of which
+  /// each counts with at most 1.1 times its own: that of its tractions (PressureTractions).
+  KOKKOS_INLINE_FUNCTION double pressureAround(int cell, int material, double own, double volume) const
+  {
+    constexpr double most = 1.1;
+    double load = own * volume, filled = volume;
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
+    {
+      int const other = in.mesh.cell_neighbour.item(j), pair = in.pairs.find(other, material);
+      if (pair < 0)
+        continue;
+      double const part = in.state.record(pair, VolumeFraction) * in.mesh.cell_volume(other);
+      double const pressure = equationOfState(in.materials(material), in.state.record(pair, SpecificVolume),
+                                              in.state.record(pair, InternalEnergy))
+                                  .pressure;
+      load += part * Math::clamp(pressure, 0.0, most * own);
+      filled += part;
+    }
+    return load / filled;
+  }
+
+  /// Let gas c grow by a part of its volume. Returns the work p dV that it does and its energy lacks then, p that of
+  /// the tractions, so that their work and this are of one size.
+  KOKKOS_INLINE_FUNCTION double expand(int c, int cell, double part) const
+  {
+    int const material = acceptors.material(c);
+    double const s = acceptors.record(c, SpecificVolume), e = acceptors.record(c, InternalEnergy);
+    double const own = equationOfState(in.materials(material), s, e).pressure;
+    double const work = part * s * pressureAround(cell, material, own, acceptors.sum(c, VolumeSum));
+    acceptors.record(c, SpecificVolume) = s + part * s;
+    acceptors.record(c, InternalEnergy) = e - work;
+    return acceptors.record(c, Mass) * work;
+  }
+
   /// Volume fractions of the deformable materials of a cell that fill `volume` of it. Of what they lack or have too
-  /// much a gas takes its part, density included; the rest they share by volume, and keep their densities. (No work is
-  /// done for what a gas takes. Where it took the least of it, too, noise of 1e-5 m/s in gas at one bar grew by e in a
-  /// millisecond.)
+  /// much a gas takes its part, density included, and does the work of that: the tractions of contact have done as much
+  /// on it where sides slid along what is not their common normal. The rest they share by volume, and keep their
+  /// densities. (Where it took the least of it, too, noise of 1e-5 m/s in gas at one bar grew by e in a millisecond:
+  /// tractions answer to the mean of pressures around, the filling changes one.)
   KOKKOS_INLINE_FUNCTION void setFractions(int index, int cell, double deformable, double volume) const
   {
     double const cell_volume = in.mesh.cell_volume(cell);
     double const gap = volume - deformable, of_gas = Math::fabs(gap) - shared_by_all * cell_volume;
     double gas = 0.0, taken = 0.0;
-    if (of_gas > 0.0 && in.options.close_void_beside_gas > 0.0)
+    if (of_gas > 0.0 && in.options.close_void_beside_gas > 0.0 && meetsOthers(cell))
     {
       gas = gasVolume(index);
       taken = (gap > 0.0 ? 1.0 : -1.0) * Math::min(of_gas, most_gas_change * gas);
@@ -250,9 +306,11 @@ struct FinishFunctor
     {
       if (!kept(c) || in.isRigid(acceptors.material(c)))
         continue;
-      double const grown = taken != 0.0 && isGasNow(c) ? 1.0 + taken / gas : 1.0;
-      acceptors.record(c, VolumeFraction) = grown * acceptors.sum(c, VolumeSum) * per_volume;
-      acceptors.record(c, SpecificVolume) *= grown;
+      double const part = taken != 0.0 && isGasNow(c) ? taken / gas : 0.0;
+      acceptors.record(c, VolumeFraction) = (1.0 + part) * acceptors.sum(c, VolumeSum) * per_volume;
+      double const work = part != 0.0 ? expand(c, cell, part) : 0.0;
+      if (in.mesh.cell_depth(cell) == 0)
+        bookings(index, BookGasWork) += work;
     }
   }
 
@@ -294,6 +352,8 @@ struct FinishFunctor
       heat += surplus * acceptors.record(c, Mass);
       acceptors.record(c, InternalEnergy) -= surplus;
     }
+    if (in.mesh.cell_depth(cell) == 0)
+      bookings(index, BookGasHeat) += heat;
     for (int c = acceptors.begin(index); heat > 0.0 && c < acceptors.end(index); ++c)
       if (kept(c) && !in.isRigid(acceptors.material(c)) && !isGasNow(c))
         acceptors.record(c, InternalEnergy) += heat / takers;

@@ -165,22 +165,26 @@ TEST(Policies, spuriousGap_isClosedWhenSmallAndBookedWhenLarge)
 
 TEST(Policies, gas_takesWhatABodyLeavesOrWants)
 {
-  constexpr double cell = 0.25, half = 0.125, shared = 1e-5 * cell;
-  for (double const by : {-1e-3, -1e-5, -1e-6, 1e-6, 1e-5, 1e-3, 0.01})
+  constexpr double cell = 0.25, half = 0.125, shared = 1e-6 * cell, gamma = 1.4;
+  for (double const by : {-1e-3, -1e-6, -1e-7, 1e-7, 1e-6, 1e-3, 0.01})
   {
     Scene scene = bodyBesideGas(by);
     double const before = scene.state.record(scene.pairs.find(1, 1), SpecificVolume);
     RemapResult const result = scene.remapped();
     double const taken = std::copysign(std::max(std::fabs(by) - shared, 0.0), -by);
-    double const rest = cell / (cell + by + taken); // what all share
+    double const rest = cell / (cell + by + taken), grown = (half + taken) / half; // rest: what all share
     EXPECT_NEAR(fieldOf(result, 1, 0, VolumeFraction), rest * (half + by) / cell, 1e-14) << by;
     EXPECT_NEAR(fieldOf(result, 1, 1, VolumeFraction), rest * (half + taken) / cell, 1e-14) << by;
-    EXPECT_NEAR(fieldOf(result, 1, 1, SpecificVolume), before * (half + taken) / half, 1e-14) << by;
+    EXPECT_NEAR(fieldOf(result, 1, 1, SpecificVolume), before * grown, 1e-14) << by;
+    // at the pressure of the gas around, which has the same energy and density, up to what others count with at most
+    EXPECT_NEAR(fieldOf(result, 1, 1, InternalEnergy), 1.0 - (gamma - 1.0) * taken / half, 1e-9 + 0.01 * std::fabs(by))
+        << by;
     EXPECT_NEAR(scene.report.closed_volume, std::max(-by, 0.0), 1e-14);
     EXPECT_EQ(scene.report.void_volume, 0.0);
     Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
     EXPECT_NEAR(t.mass, 1.0, 1e-15);
-    EXPECT_NEAR(t.internal, 1.0, 1e-14);
+    EXPECT_NEAR(t.internal + scene.report.gas_work, 1.0, 1e-14);
+    EXPECT_GE(taken * scene.report.gas_work, 0.0);
   }
 }
 
@@ -201,11 +205,11 @@ TEST(Policies, gas_takesNoMoreThanATenthOfIt)
   EXPECT_NEAR(fieldOf(squeezed, 1, 1, VolumeFraction), 0.5 * 0.9 / (1.0 + 0.08 - 0.05), 1e-14);
 }
 
-/// Energies per mass of what lies beside a body in half of a cell, and of the body, and the cell's energy, after a
-/// remap.
+/// Energies per mass of what lies beside a body in half of a cell, and of the body, the cell's energy, and the mass and
+/// heat of what lies beside the body, after a remap.
 struct CoolingCell
 {
-  double fluid, body, of_cell;
+  double fluid, body, of_cell, fluid_mass, heat;
 };
 
 CoolingCell cooled(double energy, double cool_gas_below, double start_energy, double sound_speed = 0.0,
@@ -223,7 +227,8 @@ CoolingCell cooled(double energy, double cool_gas_below, double start_energy, do
   double of_cell = 0.0;
   for (int pair = result.pairs.offset(1); pair < result.pairs.offset(2); ++pair)
     of_cell += result.state.record(pair, Mass) * result.state.record(pair, InternalEnergy);
-  return {fieldOf(result, 1, 1, InternalEnergy), fieldOf(result, 1, 0, InternalEnergy), of_cell};
+  return {fieldOf(result, 1, 1, InternalEnergy), fieldOf(result, 1, 0, InternalEnergy), of_cell,
+          fieldOf(result, 1, 1, Mass), scene.report.gas_heat};
 }
 
 TEST(Policies, thinGas_isNoWarmerThanTwiceWhatWasOrIsAround)
@@ -241,6 +246,8 @@ TEST(Policies, thinGasWithoutAnythingToCompareWith_keepsItsHeat)
 TEST(Policies, heatOfThinGas_goesToWhatLiesBesideIt)
 {
   CoolingCell const kept = cooled(10.0, 0.0, 0.0), given = cooled(10.0, 0.6, 0.0);
+  EXPECT_NEAR(given.heat, 8.0 * given.fluid_mass, 1e-14);
+  EXPECT_EQ(kept.heat, 0.0);
   EXPECT_NEAR(kept.body, 1.0, 1e-14);
   EXPECT_GT(given.body, 2.0);
   EXPECT_NEAR(given.of_cell, kept.of_cell, 1e-14 * kept.of_cell);
