@@ -60,6 +60,18 @@ TEST(BuildBoundaryConditions, slipWalls_sidesKeepTheirTangentAndCornersAreFixed)
   EXPECT_EQ(norm(corner), 0.0);
 }
 
+TEST(BuildBoundaryConditions, slipWallsAlongTheAxes_takeTheNormalPartToTheLastBit)
+{
+  for (int cells = 1; cells <= 100; ++cells)
+  {
+    double const h = 0.0388 / cells; // for some, (1 / (2 h)) (2 h) < 1
+    auto const c =
+        conditionsOf(buildMesh(rectilinearMesh({0.0, h, 2.0 * h}, {0.0, h, 2.0 * h})), std::vector<Boundary>(4));
+    EXPECT_EQ(c[1].project({1e7, 1e7})[1], 0.0) << cells;
+    EXPECT_EQ(c[3].project({1e7, 1e7})[0], 0.0) << cells;
+  }
+}
+
 TEST(BuildBoundaryConditions, contactWallsAndOutflow_leaveTheNodesFree)
 {
   auto const c = conditionsOf(fourCells(), {ofKind(BoundaryKind::ContactWall), ofKind(BoundaryKind::Outflow),
