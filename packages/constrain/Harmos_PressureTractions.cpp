@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_ContactOperator.hpp>
+#include <Harmos_PressureAround.hpp>
 #include <Harmos_PressureTractions.hpp>
 #include <Harmos_RowBuilder.hpp>
 
@@ -63,23 +64,13 @@ struct FacetPressure
   CellMaterialPairs pairs;
   View<double *[3]> pressure; // PairStress::pressure
 
-  /// Mean by volume over a cell and those around it, of which each counts with at most 1.1 times the cell's own.
+  /// What the cells around bear of a fluid's pressure.
   KOKKOS_INLINE_FUNCTION double around(int cell, int material) const
   {
-    constexpr double most = 1.1;
-    double const largest = most * Math::max(pressure(pairs.find(cell, material), 0), 0.0);
-    double load = 0.0, volume = 0.0;
-    auto const add = [&](int pair)
-    {
-      if (pair < 0)
-        return;
-      load += Math::clamp(pressure(pair, 0), 0.0, largest) * pressure(pair, 1);
-      volume += pressure(pair, 1);
-    };
-    add(pairs.find(cell, material));
-    for (int e = mesh.cell_neighbour.offset(cell); e < mesh.cell_neighbour.offset(cell + 1); ++e)
-      add(pairs.find(mesh.cell_neighbour.item(e), material));
-    return load / volume;
+    int const own = pairs.find(cell, material);
+    return pressureAround(
+        mesh, pairs, cell, material, Math::max(pressure(own, 0), 0.0), pressure(own, 1),
+        [this](int pair) { return pressure(pair, 0); }, [this](int pair) { return pressure(pair, 1); });
   }
 
   KOKKOS_INLINE_FUNCTION double densityOf(int cell, int material) const

@@ -26,8 +26,7 @@ struct RowBuilder;
 /// facet the two are one.
 ///
 /// There are none in tension, nor where the sides do not touch (touching_gap): void beyond that closes under the
-/// pressure. p is the mean over the fluid's part of the cell and of those around it, by volume, each with at most 1.1
-/// times the cell's own: what those around do not bear drives a sliver that is squeezed out of where it is
+/// pressure. p is pressureAround: what the cells around do not bear drives a sliver that is squeezed out of where it is
 /// (doc/decisions/0033). With the cell's own the tractions would take away all that resists a light sliver's sliding
 /// into a corner, and noise grew (e-fold in 0.8 ms beside a square of 0.7 m in air). Without the viscosity, which
 /// follows the velocity that the tractions make. Between two fluids p is the lower: what both carry.
@@ -59,7 +58,9 @@ struct PressureImpulses
 /// sqrt(p / density), of the lighter of two fluids, they fade, at twice that they are none. Nor do they change a node's
 /// velocity by more than 20 sqrt(p / density), all together: what two bodies squeeze to a thousandth of a cell is so
 /// light that it would leave with a hundred times that where the rows' impulses are not the pressure
-/// (doc/decisions/0031). \param system Of tractions.rows, at v*. \param before v^{n-1/2}. Collective.
+/// (doc/decisions/0031).
+///
+/// \param system Of tractions.rows, at v*. \param before v^{n-1/2}. Collective.
 PressureImpulses pressureImpulses(PressureTractions const &tractions, ContactSystem const &system, Motion const &before,
                                   double kick, Exchange const &exchange, WorkArrays const &work);
 

@@ -38,7 +38,8 @@ struct RemapOptions
   double merge_below = 1e-6;      // fragments below this volume fraction merge with same-material neighbours; 0: never
   double close_void_below = 1e-8; // spurious void below this part of a cell, with no void around, is closed
   double close_void_beside_gas = 0.01; // void below this part of a cell (and a tenth of the gas there) that a gas
-                                       // fills, which then gives way to overlaps too; 0: never
+                                       // fills, which gives way to overlaps too and does the work of both, where
+                                       // it meets other materials or contact walls; 0: never
   double cool_gas_below = 0.1; // gas that fills less than this part of a cell is no warmer than twice what is around or
                                // was there at the start (start_energy); the rest heats liquids and solids of the cell
   View<double *> start_energy; // by material: internal energy per mass of its warmest body [J/kg]; none: energy0
@@ -67,8 +68,8 @@ struct RemapReport
   double void_volume = 0.0;    // spurious void opened and not closed [length^2]
   double closed_volume = 0.0;  // spurious void that was closed
   double gas_work = 0.0;       // by gas on what gave way to it, less what it gave way (RemapOptions::
-                               // close_void_beside_gas); its internal energy lacks as much
-  double gas_heat = 0.0;       // that thin gas gave to what lies beside it (cool_gas_below)
+                               // close_void_beside_gas); its internal energy lacks as much [J/m]
+  double gas_heat = 0.0;       // that thin gas gave to what lies beside it (cool_gas_below) [J/m]
   long long merged = 0;        // fragments merged
   long long bounded = 0;       // pairs whose specific volume was bounded by twice the cell's
   double outflow_mass = 0.0, outflow_energy = 0.0; // kinetic + internal, net of inflow

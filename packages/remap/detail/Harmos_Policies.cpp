@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_EquationOfState.hpp>
+#include <Harmos_PressureAround.hpp>
 #include <detail/Harmos_Acceptors.hpp>
 
 namespace Harmos
@@ -196,12 +197,18 @@ struct FinishFunctor
     return any;
   }
 
+  /// Whether gas fills what is left of a cell that holds `deformable` beside `rigid`, or gives way there.
+  KOKKOS_INLINE_FUNCTION bool gasFills(int cell, double deformable, double rigid) const
+  {
+    double const cell_volume = in.mesh.cell_volume(cell);
+    return in.options.close_void_beside_gas > 0.0 &&
+           Math::fabs(cell_volume - rigid - deformable) > full_tolerance * cell_volume && meetsOthers(cell);
+  }
+
   /// Void that a gas fills, whatever void is around: in its own cells what it can take, beside them what a merged
   /// fragment of it may have left.
   KOKKOS_INLINE_FUNCTION double mostFilledByGas(int index, int cell) const
   {
-    if (in.options.close_void_beside_gas == 0.0 || !meetsOthers(cell))
-      return 0.0;
     double const cell_volume = in.mesh.cell_volume(cell), gas = gasVolume(index);
     if (gas > 0.0)
       return Math::min(in.options.close_void_beside_gas * cell_volume, most_gas_change * gas);
@@ -210,7 +217,8 @@ struct FinishFunctor
   }
 
   /// The volume that the deformable materials get, and whether the cell is full then.
-  KOKKOS_INLINE_FUNCTION double share(int index, int cell, double deformable, double rigid, bool &full) const
+  KOKKOS_INLINE_FUNCTION double share(int index, int cell, double deformable, double rigid, bool gas_fills,
+                                      bool &full) const
   {
     double const cell_volume = in.mesh.cell_volume(cell);
     double const available = Math::max(cell_volume - rigid, Math::min(deformable, least_share * cell_volume));
@@ -227,7 +235,7 @@ struct FinishFunctor
     }
     bool const spurious = !voidAround(cell);
     bool const thin = spurious && deformable > 0.0 && gap < in.options.close_void_below * cell_volume;
-    if (thin || (deformable > 0.0 && gap < mostFilledByGas(index, cell)))
+    if (thin || (deformable > 0.0 && gas_fills && gap < mostFilledByGas(index, cell)))
     {
       if (owned)
         bookings(index, BookClosed) += gap;
@@ -252,35 +260,24 @@ struct FinishFunctor
       bookings(index, BookBounded) += 1.0;
   }
 
-  /// Mean pressure by volume of a material over a cell, where it has `own` in `volume`, and the cells around, of which
-  /// each counts with at most 1.1 times its own: that of its tractions (PressureTractions).
-  KOKKOS_INLINE_FUNCTION double pressureAround(int cell, int material, double own, double volume) const
-  {
-    constexpr double most = 1.1;
-    double load = own * volume, filled = volume;
-    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
-    {
-      int const other = in.mesh.cell_neighbour.item(j), pair = in.pairs.find(other, material);
-      if (pair < 0)
-        continue;
-      double const part = in.state.record(pair, VolumeFraction) * in.mesh.cell_volume(other);
-      double const pressure = equationOfState(in.materials(material), in.state.record(pair, SpecificVolume),
-                                              in.state.record(pair, InternalEnergy))
-                                  .pressure;
-      load += part * Math::clamp(pressure, 0.0, most * own);
-      filled += part;
-    }
-    return load / filled;
-  }
-
-  /// Let gas c grow by a part of its volume. Returns the work p dV that it does and its energy lacks then, p that of
-  /// the tractions, so that their work and this are of one size.
+  /// Let gas c grow by a part of its volume. Returns the work p dV that it does and its energy lacks then, p what
+  /// the cells around bear of its pressure, as the tractions have it, so that their work and this are of one size.
   KOKKOS_INLINE_FUNCTION double expand(int c, int cell, double part) const
   {
     int const material = acceptors.material(c);
     double const s = acceptors.record(c, SpecificVolume), e = acceptors.record(c, InternalEnergy);
+    auto const pressure_of = [&](int pair)
+    {
+      return equationOfState(in.materials(material), in.state.record(pair, SpecificVolume),
+                             in.state.record(pair, InternalEnergy))
+          .pressure;
+    };
+    auto const volume_of = [&](int pair)
+    { return in.state.record(pair, VolumeFraction) * in.mesh.cell_volume(in.pairs.cell(pair)); };
     double const own = equationOfState(in.materials(material), s, e).pressure;
-    double const work = part * s * pressureAround(cell, material, own, acceptors.sum(c, VolumeSum));
+    double const work =
+        part * s *
+        pressureAround(in.mesh, in.pairs, cell, material, own, acceptors.sum(c, VolumeSum), pressure_of, volume_of);
     acceptors.record(c, SpecificVolume) = s + part * s;
     acceptors.record(c, InternalEnergy) = e - work;
     return acceptors.record(c, Mass) * work;
@@ -291,12 +288,12 @@ struct FinishFunctor
   /// on it where sides slid along what is not their common normal. The rest they share by volume, and keep their
   /// densities. (Where it took the least of it, too, noise of 1e-5 m/s in gas at one bar grew by e in a millisecond:
   /// tractions answer to the mean of pressures around, the filling changes one.)
-  KOKKOS_INLINE_FUNCTION void setFractions(int index, int cell, double deformable, double volume) const
+  KOKKOS_INLINE_FUNCTION void setFractions(int index, int cell, double deformable, double volume, bool gas_fills) const
   {
     double const cell_volume = in.mesh.cell_volume(cell);
     double const gap = volume - deformable, of_gas = Math::fabs(gap) - shared_by_all * cell_volume;
     double gas = 0.0, taken = 0.0;
-    if (of_gas > 0.0 && in.options.close_void_beside_gas > 0.0 && meetsOthers(cell))
+    if (gas_fills && of_gas > 0.0)
     {
       gas = gasVolume(index);
       taken = (gap > 0.0 ? 1.0 : -1.0) * Math::min(of_gas, most_gas_change * gas);
@@ -386,8 +383,9 @@ struct FinishFunctor
       }
     }
     bool full;
-    double const volume = share(index, cell, deformable, rigid, full);
-    setFractions(index, cell, deformable, volume);
+    bool const gas_fills = gasFills(cell, deformable, rigid);
+    double const volume = share(index, cell, deformable, rigid, gas_fills, full);
+    setFractions(index, cell, deformable, volume, gas_fills);
     if (full)
       makeFull(index);
     if (in.options.cool_gas_below > 0.0)
