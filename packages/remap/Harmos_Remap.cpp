@@ -78,6 +78,19 @@ CornerShares startShares(Input const &in)
   return share;
 }
 
+/// Whether some material is neither rigid nor has strength.
+bool anyFluid(View<Material *> const &materials)
+{
+  int fluids = 0;
+  Kokkos::parallel_reduce(
+      "Harmos::remap::anyFluid", RangePolicy(0, static_cast<int>(materials.extent(0))),
+      KOKKOS_LAMBDA(int m, int &sum) {
+        sum += materials(m).rigid_body < 0 && materials(m).strength == StrengthKind::None ? 1 : 0;
+      },
+      fluids);
+  return fluids > 0;
+}
+
 /// The classes of the cells: as in the last cycle where nothing that they depend on has changed.
 Classes const &keepClasses(Input const &in, Kept &kept)
 {
@@ -89,7 +102,10 @@ Classes const &keepClasses(Input const &in, Kept &kept)
                           kept.pairs.material.data() == in.pairs.material.data() &&
                           kept.pairs.cell_kind.data() == in.pairs.cell_kind.data();
   if (!same_scene)
+  {
     kept.classes = classify(in);
+    kept.any_fluid = anyFluid(in.materials);
+  }
   else if (!same_pairs)
     updateClasses(in, kept.classes);
   kept.pairs = in.pairs;
@@ -303,6 +319,7 @@ RemapResult remap(Mesh const &mesh, Kinematics kinematics, CellMaterialPairs con
   if (shares_move)
     in.share = startShares(in);
   Classes const &classes = keepClasses(in, kept);
+  in.any_fluid = kept.any_fluid;
   if (classes.num_interface > 0 && kept.links.box.extent(0) == 0)
     kept.links = linkNeighbours(mesh);
   if (classes.num_interface > 0 && !kept.boxed)

@@ -28,6 +28,7 @@ struct Kept
   View<Material *> materials;
   Classes classes;
   bool swept_faces = true; // what the classes are for
+  bool any_fluid = true;   // of the materials
 
   // Work arrays of stage 2, as large as they were ever needed.
   Donors donors;

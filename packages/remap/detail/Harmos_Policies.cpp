@@ -201,7 +201,7 @@ struct FinishFunctor
   KOKKOS_INLINE_FUNCTION bool gasFills(int cell, double deformable, double rigid) const
   {
     double const cell_volume = in.mesh.cell_volume(cell);
-    return in.options.close_void_beside_gas > 0.0 &&
+    return in.any_fluid && in.options.close_void_beside_gas > 0.0 &&
            Math::fabs(cell_volume - rigid - deformable) > full_tolerance * cell_volume && meetsOthers(cell);
   }
 
@@ -388,7 +388,7 @@ struct FinishFunctor
     setFractions(index, cell, deformable, volume, gas_fills);
     if (full)
       makeFull(index);
-    if (in.options.cool_gas_below > 0.0)
+    if (in.any_fluid && in.options.cool_gas_below > 0.0)
       coolThinGas(index, cell);
   }
 };

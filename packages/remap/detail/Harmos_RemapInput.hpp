@@ -30,6 +30,7 @@ struct Input
   bool retargeted = false;   // it is
   View<double *[32]> ranges; // fieldRanges
   CornerShares share;        // of the mesh where the motion began, in all of the remap (moveShares)
+  bool any_fluid = true;     // some material is neither rigid nor has strength: without one there is no gas
 
   KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
   /// Stage field KineticField holds damage.
