@@ -161,7 +161,7 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   {
     std::vector<int> fluid;
     for (Material const &law : laws)
-      fluid.push_back(law.rigid_body < 0 && law.strength == StrengthKind::None ? 1 : 0);
+      fluid.push_back(isFluid(law) ? 1 : 0);
     scene.reconstruction.fluid = deviceCopy("fluid", fluid);
   }
   bool can_fail = false;

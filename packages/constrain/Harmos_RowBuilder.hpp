@@ -74,13 +74,18 @@ struct RowBuilder
     return dot(apart, apart) > least * least;
   }
 
+  KOKKOS_INLINE_FUNCTION double fullnessOf(int cell) const
+  {
+    return fullness(mesh, pairs, regions, cell, [this](int material) { return bearing.presses(material); });
+  }
+
   /// Whether segment a, which faces b, carries no row for its length. Where tractions are shared its own goes to the
   /// rows at its ends, but where bodies pass each other: what lies still wants few rows, what goes through wants many.
   KOKKOS_INLINE_FUNCTION bool isTooShort(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
     if (a.parts * a.length >= options.shortest_segment * a.cell_size)
       return false;
-    return a.parts * a.length < bearing.shortest(a, b, fullness(mesh, pairs, regions, a.cell)) &&
+    return a.parts * a.length < bearing.shortest(a, b, fullnessOf(a.cell)) &&
            !(bearing.balance(a, b) == ShortSegments::Shared && pass(a, b));
   }
 
@@ -381,7 +386,7 @@ struct RowBuilder
     ShortSegments const balance = bearing.balance(a, b);
     if (balance == ShortSegments::Dropped)
       return found;
-    double const full = fullness(mesh, pairs, regions, a.cell);
+    double const full = fullnessOf(a.cell);
     double const part = balance == ShortSegments::Kept ? 1.0 : full;
     Vector2 const half = (0.5 * a.length) * perpendicular(a.normal);
     bool const bends = a.parts * a.length >= options.shortest_segment * a.cell_size;

@@ -21,11 +21,13 @@ struct SegmentBearing
     return material >= 0 && of_material.extent(0) > 0 ? of_material(material) : ShortSegments::Dropped;
   }
 
-  /// Whether a segment is of a fluid, whose pressure acts on all of its outline.
-  KOKKOS_INLINE_FUNCTION bool isPressed(InterfaceSegment const &a) const
+  /// Whether a material is a fluid, whose pressure acts on all of its outline.
+  KOKKOS_INLINE_FUNCTION bool presses(int material) const
   {
-    return a.material >= 0 && fluid.extent(0) > 0 && fluid(a.material) != 0;
+    return material >= 0 && fluid.extent(0) > 0 && fluid(material) != 0;
   }
+
+  KOKKOS_INLINE_FUNCTION bool isPressed(InterfaceSegment const &a) const { return presses(a.material); }
 
   /// What balances the traction of segment a, where both sides of an interface end in its cell: beside a wall there is
   /// no cell that is full. Halves of segments do so for mortar multipliers; elsewhere two points want to be apart.

@@ -141,7 +141,8 @@ struct CutGradientFunctor
     int const cell = regions.mixed_cell(i);
     Quadrilateral const q = cellQuadrilateral(mesh, cell);
     int const first = regions.cell_region(cell), count = pairs.offset(cell + 1) - pairs.offset(cell);
-    double const full = fullness(mesh, pairs, regions, cell);
+    double const full =
+        fullness(mesh, pairs, regions, cell, [this](int material) { return isFluid(materials(material)); });
     bool any = false;
     for (int k = 0; k < count; ++k)
     {

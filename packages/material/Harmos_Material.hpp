@@ -98,6 +98,12 @@ struct Material
   ThermalCurve thermal;
 };
 
+/// Whether a material deforms without shear strength.
+KOKKOS_INLINE_FUNCTION bool isFluid(Material const &material)
+{
+  return material.rigid_body < 0 && material.strength == StrengthKind::None;
+}
+
 } // namespace Harmos
 
 #endif

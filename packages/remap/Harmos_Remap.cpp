@@ -84,10 +84,7 @@ bool anyFluid(View<Material *> const &materials)
   int fluids = 0;
   Kokkos::parallel_reduce(
       "Harmos::remap::anyFluid", RangePolicy(0, static_cast<int>(materials.extent(0))),
-      KOKKOS_LAMBDA(int m, int &sum) {
-        sum += materials(m).rigid_body < 0 && materials(m).strength == StrengthKind::None ? 1 : 0;
-      },
-      fluids);
+      KOKKOS_LAMBDA(int m, int &sum) { sum += isFluid(materials(m)) ? 1 : 0; }, fluids);
   return fluids > 0;
 }
 

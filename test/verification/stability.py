@@ -177,11 +177,13 @@ def test_a_block_floats_in_still_air():
 
 
 def test_fluids_that_ring_gain_nothing_at_long_steps():
-    # Of the stored energy 0.45 is kinetic at most. With the mean of both sides' pressures in the tractions 46 and 4.
-    settings, left_area, _ = oblique(20.0, 0.0)
-    for method in "vital vertices", "mortar", "multipliers":
-        r, most = ring(method, 0.95, settings, left_area)
-        check(f"{method}: kinetic energy over the stored one", most, 0.6)
+    # Of the stored energy 0.45 is kinetic at most. With the mean of both sides' pressures in the tractions 46 and 4; at 30 degrees 1,300, where
+    # void of half a hundredth of a cell, which opened and closed from step to step, made edges straight.
+    for method, angle, courant, bound in (("vital vertices", 20.0, 0.95, 0.6), ("mortar", 20.0, 0.95, 0.6), ("multipliers", 20.0, 0.95, 0.6),
+                                          ("mortar", 30.0, 0.9, 1.0), ("mortar", 30.0, 0.95, 1.0)):
+        settings, left_area, _ = oblique(angle, 0.0)
+        r, most = ring(method, courant, settings, left_area)
+        check(f"{method}, {angle:.0f} degrees, Courant {courant}: kinetic energy over the stored one", most, bound)
         clean(r)
 
 

@@ -174,10 +174,33 @@ TEST(CutGradients, ofSolidsFollowTheFullnessOfTheirCell)
       for (int k = 0; k < 12; ++k)
       {
         EXPECT_NEAR(full(region, k), share * all(region, k), 1e-11);
-        EXPECT_EQ(fluid(region, k), all(region, k));
+        EXPECT_NEAR(fluid(region, k), all(region, k), 1e-11); // edges along the cell are straight, bent or not
       }
     EXPECT_GT(std::fabs(all(0, CutGradientX)), 0.1); // the parts do have gradients of their own
   }
+}
+
+TEST(CutGradients, ofFluidsAloneBendTheirEdgesUntilATenthOfTheCellIsVoid)
+{
+  // Beyond x = right of the cell [2, 2.4] x [1, 1.3] lies void: none, 5% and 10% of the cell; a solid's edges are
+  // straight from 1% on.
+  Region const left = polygon({{2.0, 1.0}, {2.31, 1.0}, {2.13, 1.3}, {2.0, 1.3}});
+  auto const gradients = [&](Material const &material, double open)
+  {
+    double const right = 2.4 - 0.4 * open;
+    Region const rest = polygon({{2.31, 1.0}, {right, 1.0}, {right, 1.3}, {2.13, 1.3}});
+    return gradientsOf({left, rest}, material, CutCellStress::FilledRegions);
+  };
+  auto const bent = gradients(Material(), 0.0), half = gradients(Material(), 0.05),
+             straight = gradients(Material(), 0.1), solid = gradients(elasticSolid(), 0.05),
+             alone = gradientsOf({left}, Material(), CutCellStress::FilledRegions);
+  for (int k = 0; k < 12; ++k)
+  {
+    EXPECT_NEAR(straight(0, k), alone(0, k), 1e-11);
+    EXPECT_NEAR(half(0, k), 0.5 * (bent(0, k) + straight(0, k)), 1e-11);
+    EXPECT_NEAR(solid(0, k), straight(0, k), 1e-11);
+  }
+  EXPECT_GT(std::fabs(bent(0, CutGradientX) - straight(0, CutGradientX)), 0.1);
 }
 
 TEST(CutGradients, ofWornTipsGoBackToTheMean)

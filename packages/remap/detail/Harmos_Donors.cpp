@@ -55,7 +55,9 @@ KOKKOS_INLINE_FUNCTION void moveRegion(Input const &in, int cell, int pair, Move
     return;
   }
   // Where interfaces are closed edges bend at their middles as the bilinear motion bends them (Harmos_BentEdge.hpp).
-  double const full = fullness(in.mesh, in.pairs, in.regions, cell), cell_area = in.mesh.cell_area(cell);
+  double const full = fullness(in.mesh, in.pairs, in.regions, cell,
+                               [&](int material) { return isFluid(in.materials(material)); }),
+               cell_area = in.mesh.cell_area(cell);
   Region const &still = in.regions.polygon(first + pair - in.pairs.offset(cell));
   region.size = 0;
   for (int i = 0; i < still.size; ++i)

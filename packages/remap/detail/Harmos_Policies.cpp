@@ -22,7 +22,7 @@ constexpr double most_warmth = 2.0;      // over that of the gas around: what he
 KOKKOS_INLINE_FUNCTION bool isGas(Material const &law, double specific_volume, double internal_energy)
 {
   constexpr double most_stiffness = 10.0;
-  if (law.rigid_body >= 0 || law.strength != StrengthKind::None)
+  if (!isFluid(law))
     return false;
   EosState<double> const eos = equationOfState(law, specific_volume, internal_energy);
   return eos.pressure > 0.0 && eos.sound_speed_squared <= most_stiffness * eos.pressure * specific_volume;
