@@ -235,7 +235,7 @@ struct SegmentFinder
         s.cell = cell;
         s.length = points.count == 1 ? length : 0.5 * length;
         s.midpoint = edge.start + (begin + (half + 0.5) * s.length) * edge.direction;
-        s.point = middleOf(s.midpoint, edge.direction, s.length);
+        s.point = balancePoint(mesh.geometry, s.midpoint, edge.direction, s.length);
         if (points.count == 2)
           s.point = edge.start + (begin + (half == 0 ? points.inset : 1.0 - points.inset) * length) * edge.direction;
         s.normal = edge.normal;
@@ -248,15 +248,6 @@ struct SegmentFinder
       }
     }
     return count;
-  }
-
-  /// Where the segment's area balances. Axisymmetric: its ring's, s = L^2 r' / (12 r) beyond the midpoint; a uniform
-  /// pressure over the ring then loads its nodes as ring shares lump their masses.
-  KOKKOS_INLINE_FUNCTION Vector2 middleOf(Vector2 const &midpoint, Vector2 const &direction, double length) const
-  {
-    if (mesh.geometry == Geometry::Planar || !(midpoint[0] > 0.0))
-      return midpoint;
-    return midpoint + (length * length * direction[0] / (12.0 * midpoint[0])) * direction;
   }
 
   static KOKKOS_INLINE_FUNCTION InterfaceSegment blankSegment(int cell, CellFrame const &frame)
@@ -327,7 +318,7 @@ struct SegmentFinder
         Edge const face = frame.face(k);
         s = blank;
         s.midpoint = face.start + 0.5 * face.length * face.direction;
-        s.point = middleOf(s.midpoint, face.direction, face.length);
+        s.point = balancePoint(mesh.geometry, s.midpoint, face.direction, face.length);
         s.normal = -face.normal;
         s.length = face.length;
         s.exposed = 1.0;

@@ -36,6 +36,16 @@ struct InterfaceSegment
   int parts;    // the piece that this is a part of is so many times as long
 };
 
+/// Where the area of a segment balances. Axisymmetric: its ring's, s = L^2 r' / (12 r) beyond the midpoint; a uniform
+/// pressure over the ring then loads its nodes as ring shares lump their masses.
+KOKKOS_INLINE_FUNCTION Vector2 balancePoint(Geometry geometry, Vector2 const &midpoint, Vector2 const &direction,
+                                            double length)
+{
+  if (geometry == Geometry::Planar || !(midpoint[0] > 0.0))
+    return midpoint;
+  return midpoint + (length * length * direction[0] / (12.0 * midpoint[0])) * direction;
+}
+
 /// All segments of this rank, ordered by cell and number within the cell (so by key).
 struct InterfaceSegments
 {

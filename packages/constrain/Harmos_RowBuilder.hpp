@@ -8,6 +8,7 @@
 #include <Harmos_CurvedGap.hpp>
 #include <Harmos_FacingSegments.hpp>
 #include <Harmos_Fullness.hpp>
+#include <Harmos_JoinedSegments.hpp>
 #include <Harmos_SegmentBearing.hpp>
 
 namespace Harmos
@@ -16,7 +17,8 @@ namespace Harmos
 /// The rows of a segment, before they are written.
 struct PlannedRows
 {
-  int count; // 0, 1 or 2
+  int count;   // 0, 1 or 2
+  bool joined; // with other pieces of its line (JoinedSegments)
   Vector2 normal[2];
   RayHit hit[2];
 };
@@ -96,15 +98,19 @@ struct RowBuilder
     return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
   }
 
-  KOKKOS_INLINE_FUNCTION bool carriesRow(int i) const
+  KOKKOS_INLINE_FUNCTION JoinedSegments joinedSegments() const
+  {
+    return {mesh.geometry, segments.count, segment, hit, bearing};
+  }
+
+  /// Whether segment i carries a row, if its line is long enough.
+  KOKKOS_INLINE_FUNCTION bool mayCarryRow(int i) const
   {
     InterfaceSegment const &a = segment(i);
     if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0 ||
         (a.face >= 0 && a.exposed < options.exposed_face))
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
-    if (isTooShort(a, b))
-      return false;
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
         meetByOutline(a, b))
       return false;
@@ -268,27 +274,46 @@ struct RowBuilder
   KOKKOS_INLINE_FUNCTION void plan(int i, PlannedRows &rows) const
   {
     rows.count = 0;
-    if (!carriesRow(i))
+    if (!mayCarryRow(i))
       return;
-    rows.hit[0] = hit(i);
-    rows.normal[0] = rowNormal(segment(i), hit(i).segment);
+    JoinedSegments const joined = joinedSegments();
+    rows.joined = joined.isPiece(i);
+    if (!rows.joined)
+    {
+      planAlong(segment(i), hit(i), i, rows);
+      return;
+    }
+    JoinedSegments::Line const line = joined.lineOf(i);
+    RayHit to = hit(i);
+    to.gap = line.gap;
+    if (line.carrier == i)
+      planAlong(line.whole, to, i, rows);
+  }
+
+  /// The rows of segment i along `a`: the segment, or the line that it is a piece of.
+  KOKKOS_INLINE_FUNCTION void planAlong(InterfaceSegment const &a, RayHit const &to, int i, PlannedRows &rows) const
+  {
+    if (isTooShort(a, segment(to.segment)))
+      return;
+    rows.hit[0] = to;
+    rows.normal[0] = rowNormal(a, to.segment);
     if (rows.normal[0][0] == 0.0 && rows.normal[0][1] == 0.0)
       return;
     rows.count = 1;
-    if (endGoesThrough(segment(i), hit(i)))
-      planHalves(i, rows);
+    if (endGoesThrough(a, to))
+      planHalves(a, i, rows);
     for (int half = 0; half < rows.count; ++half)
-      rows.hit[half] =
-          alongArcs(rows.count == 2 ? halfOf(segment(i), half) : segment(i), rows.hit[half], rows.normal[half]);
+      rows.hit[half] = alongArcs(rows.count == 2 ? halfOf(a, half) : a, rows.hit[half], rows.normal[half]);
   }
 
-  /// Two rows in the place of one, where both halves carry one.
-  KOKKOS_INLINE_FUNCTION void planHalves(int i, PlannedRows &rows) const
+  /// Two rows in the place of one, where both halves of the line of segment i carry one.
+  KOKKOS_INLINE_FUNCTION void planHalves(InterfaceSegment const &whole, int i, PlannedRows &rows) const
   {
     PlannedRows two = {};
+    two.joined = rows.joined;
     for (; two.count < 2; ++two.count)
     {
-      InterfaceSegment const s = halfOf(segment(i), two.count);
+      InterfaceSegment const s = halfOf(whole, two.count);
       RayHit const to = castRay(mesh, segments, bins, s, i);
       if (to.segment < 0 || segment(to.segment).material != segment(hit(i).segment).material)
         return;
@@ -364,9 +389,10 @@ struct RowBuilder
       int const cell = beyond / 4;
       for (int i = segments.firstOf(cell); i < segments.count && segment(i).cell == cell; ++i)
       {
-        InterfaceSegment const &s = segment(i);
-        if (s.material != a.material || hit(i).segment < 0)
+        if (segment(i).material != a.material || hit(i).segment < 0)
           continue;
+        JoinedSegments const joined = joinedSegments();
+        InterfaceSegment const s = joined.isPiece(i) ? joined.lineOf(i).whole : segment(i);
         InterfaceSegment const &faced = segment(hit(i).segment);
         if (faced.material != b.material || bearing.balance(s, faced) != ShortSegments::Shared || !isTooShort(s, faced))
           continue;
@@ -443,7 +469,8 @@ struct RowBuilder
 
   KOKKOS_INLINE_FUNCTION ContactRow makeRow(int i, PlannedRows const &rows, int half) const
   {
-    InterfaceSegment const a = rows.count == 2 ? halfOf(segment(i), half) : segment(i);
+    InterfaceSegment const whole = rows.joined ? joinedSegments().lineOf(i).whole : segment(i);
+    InterfaceSegment const a = rows.count == 2 ? halfOf(whole, half) : whole;
     InterfaceSegment const &b = segment(rows.hit[half].segment);
     ContactRow row = {};
     row.key = mesh.cell_global(a.cell) * max_cell_rows + 2 * a.number + half;

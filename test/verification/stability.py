@@ -187,6 +187,16 @@ def test_fluids_that_ring_gain_nothing_at_long_steps():
         clean(r)
 
 
+def test_tied_blocks_that_ring_lose_nothing_to_contact():
+    # With a row for each piece of a line beside a wedge of 1e-6 of a cell of void 1% and 6% of what was stored.
+    for angle in 20.0, 70.0:
+        settings, left_area, _ = oblique(angle, 0.3)
+        r, most = ring("multipliers", 0.5, {**settings, "interactions": "{default: bonded}"}, left_area)
+        check(f"{angle:.0f} degrees: energy that contact takes or gives over the stored one", max(map(abs, r["contact_loss"])) / (0.5 * 0.001**2 * left_area), 1e-3)
+        check(f"{angle:.0f} degrees: multipliers, most over least", max(r["multipliers"]) / min(r["multipliers"][1:]), 1.2)
+        clean(r)
+
+
 # At 35 degrees the line passes nodes at 2e-4 of a cell: the tips there are merged with their neighbours, and lose their pressure.
 def test_gas_rests_at_the_corners_of_solids():
     # With chords in the corners' cells gas left a box through its corners (3.4e-4 to 0.14 of its volume in 2 ms), and a square in air

@@ -269,6 +269,49 @@ TEST(ContactRows, shortSegmentsShareTheirTractionsInFullCells)
   EXPECT_LT(open.first, of(gap, ShortSegments::Kept).first);
 }
 
+// Void takes a wedge from one body, 1e-4 wide to its length, along 0.3 cells of the line in one cell. The wedge is
+// between the first body's two edges and the other, or beyond the last piece of its one edge.
+TEST(ContactRows, piecesOfOneLineInACellCarryOneRow)
+{
+  Plane2 const line{oblique, 4.321};
+  auto const with = [&](int body, double angle)
+  {
+    auto const cut = [&line, body, angle](int material, Quadrilateral const &q)
+    {
+      Plane2 const side = material == 0 ? line : reversed(line);
+      Region const whole = cutBy(q, side);
+      Vector2 const bend{4.7, (line.offset - 4.7 * oblique[0]) / oblique[1]};
+      if (material != body || std::fabs(centreOf(q)[0] - 4.5) > 0.1 || std::fabs(centreOf(q)[1] - bend[1]) > 0.5)
+        return whole;
+      Vector2 const turned = side.normal + (material == 0 ? angle : -angle) * perpendicular(side.normal);
+      Region less;
+      clip(whole, {(1.0 / norm(turned)) * turned, dot(turned, bend) / norm(turned)}, less);
+      return less;
+    };
+    TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)),
+                    {{0, [cut](Quadrilateral const &q) { return cut(0, q); }},
+                     {1, [cut](Quadrilateral const &q) { return cut(1, q); }}},
+                    2, open_box);
+    scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, ShortSegments::Shared));
+    return rowsOf(scene);
+  };
+  auto const whole = with(-1, 0.0);
+  for (int const body : {0, 1})
+    for (double const angle : {1e-4, -1e-4})
+    {
+      auto const rows = with(body, angle);
+      ASSERT_EQ(rows.size(), whole.size()) << body << " " << angle;
+      for (std::size_t r = 0; r < rows.size(); ++r)
+      {
+        EXPECT_LT(norm(rows[r].point - whole[r].point), 1e-4);
+        EXPECT_NEAR(rows[r].length, whole[r].length, 1e-4);
+        EXPECT_NEAR(rows[r].gap, 0.0, 1e-12);
+        for (int k = 0; k < 4; ++k)
+          EXPECT_NEAR(rows[r].weight_a[k], whole[r].weight_a[k], 1e-3);
+      }
+    }
+}
+
 namespace
 {
 

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_JOINED_SEGMENTS_HPP
+#define HARMOS_JOINED_SEGMENTS_HPP
+
+#include <Harmos_RayCast.hpp>
+#include <Harmos_SegmentBearing.hpp>
+
+namespace Harmos
+{
+
+/// \brief Pieces of one line between two solids in a cell, which carry one row.
+///
+/// Void of 1e-6 of a cell, which bodies that are strained along each other leave, is a wedge along a part of the line:
+/// beyond it the piece faces void, or the line has a bend of 1e-5 there. With a row for each piece the two sides could
+/// not turn against each other in that cell, as they can in all others, from the cycle on in which the wedge appears:
+/// what they did so was lost, 6% of the energy of blocks that ring in 400 cycles.
+struct JoinedSegments
+{
+  Geometry geometry;
+  int count; // of segments; those of a cell follow each other
+  View<InterfaceSegment *> const &segment;
+  View<RayHit *> const &hit;
+  SegmentBearing const &bearing;
+
+  /// The line that segment i is a piece of.
+  struct Line
+  {
+    InterfaceSegment whole; // of the piece that carries the row, but for where it lies
+    int carrier;            // the longest piece, the first of equal ones
+    double gap;             // the least of the pieces'
+  };
+
+  /// Whether segment i is one of several pieces.
+  KOKKOS_INLINE_FUNCTION bool isPiece(int i) const
+  {
+    return mayJoin(i) && (next(i, endOf(segment(i), 0), 0) >= 0 || next(i, endOf(segment(i), 1), 1) >= 0);
+  }
+
+  /// The line of a piece.
+  KOKKOS_INLINE_FUNCTION Line lineOf(int i) const
+  {
+    Line line{segment(i), i, hit(i).gap};
+    Vector2 const half = (0.5 * segment(i).length) * perpendicular(segment(i).normal);
+    Vector2 end[2] = {segment(i).midpoint - half, segment(i).midpoint + half};
+    double longest = segment(i).length;
+    for (int side = 0; side < 2; ++side)
+      for (int j = next(i, end[side], side); j >= 0; j = next(j, end[side], side))
+      {
+        end[side] = endOf(segment(j), side);
+        line.gap = Math::min(line.gap, hit(j).gap);
+        if (segment(j).length > longest || (segment(j).length == longest && j < line.carrier))
+        {
+          longest = segment(j).length;
+          line.carrier = j;
+        }
+      }
+    Vector2 const along = end[1] - end[0];
+    line.whole = segment(line.carrier);
+    line.whole.length = norm(along);
+    line.whole.midpoint = 0.5 * (end[0] + end[1]);
+    Vector2 const direction = (1.0 / line.whole.length) * along;
+    line.whole.normal = -perpendicular(direction);
+    line.whole.point = balancePoint(geometry, line.whole.midpoint, direction, line.whole.length);
+    return line;
+  }
+
+private:
+  /// Ends of a segment, 0 before and 1 after its midpoint along the outline.
+  static KOKKOS_INLINE_FUNCTION Vector2 endOf(InterfaceSegment const &s, int end)
+  {
+    return s.midpoint + ((end - 0.5) * s.length) * perpendicular(s.normal);
+  }
+
+  KOKKOS_INLINE_FUNCTION bool mayJoin(int i) const
+  {
+    InterfaceSegment const &a = segment(i);
+    if (bearing.placement != Placement::Midpoint || a.parts != 1 || a.face >= 0 || a.material < 0 ||
+        hit(i).segment < 0 || hit(i).gap > touching_gap * a.cell_size)
+      return false;
+    return bearing.balance(a, segment(hit(i).segment)) == ShortSegments::Shared;
+  }
+
+  /// The piece that goes on where piece i ends, on one side; -1: none.
+  KOKKOS_INLINE_FUNCTION int next(int i, Vector2 const &end, int side) const
+  {
+    constexpr double near = 1e-6, straight = 0.9999; // [cells]; cosine
+    InterfaceSegment const &a = segment(i);
+    auto const goesOn = [&](int j)
+    {
+      InterfaceSegment const &b = segment(j);
+      if (b.material != a.material || dot(a.normal, b.normal) < straight || !mayJoin(j) ||
+          segment(hit(j).segment).material != segment(hit(i).segment).material)
+        return false;
+      Vector2 const apart = endOf(b, 1 - side) - end;
+      return dot(apart, apart) <= near * near * a.cell_size * a.cell_size;
+    };
+    for (int j = i + 1; j < count && segment(j).cell == a.cell; ++j)
+      if (goesOn(j))
+        return j;
+    for (int j = i - 1; j >= 0 && segment(j).cell == a.cell; --j)
+      if (goesOn(j))
+        return j;
+    return -1;
+  }
+};
+
+} // namespace Harmos
+
+#endif
