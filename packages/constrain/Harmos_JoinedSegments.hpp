@@ -8,21 +8,30 @@
 namespace Harmos
 {
 
-/// \brief Pieces of one line between two solids in a cell, which carry one row.
+/// Whether a point lies on face k of a cell.
+KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 const &x)
+{
+  constexpr double distance = 1e-6; // in lengths of the face
+  Vector2 const face = q[(k + 1) % 4] - q[k];
+  return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
+}
+
+/// \brief Pieces of one line between two solids through a cell, which carry one row.
 ///
 /// Void of 1e-6 of a cell, which bodies that are strained along each other leave, is a wedge along a part of the line:
 /// beyond it the piece faces void, or the line has a bend of 1e-5 there. With a row for each piece the two sides could
 /// not turn against each other in that cell, as they can in all others, from the cycle on in which the wedge appears:
-/// what they did so was lost, 6% of the energy of blocks that ring in 400 cycles.
+/// what they did so was lost, 6% of the energy of blocks that ring in 400 cycles (doc/decisions/0035). A line that ends
+/// inside of the cell, at a corner or where three bodies meet, keeps a row for each piece.
 struct JoinedSegments
 {
-  Geometry geometry;
+  Mesh const &mesh;
   int count; // of segments; those of a cell follow each other
   View<InterfaceSegment *> const &segment;
   View<RayHit *> const &hit;
   SegmentBearing const &bearing;
 
-  /// The line that segment i is a piece of.
+  /// The line that a segment is a piece of.
   struct Line
   {
     InterfaceSegment whole; // of the piece that carries the row, but for where it lies
@@ -30,22 +39,20 @@ struct JoinedSegments
     double gap;             // the least of the pieces'
   };
 
-  /// Whether segment i is one of several pieces.
-  KOKKOS_INLINE_FUNCTION bool isPiece(int i) const
+  /// Whether segment i is one of several pieces of a line through its cell; if so, that.
+  KOKKOS_INLINE_FUNCTION bool find(int i, Line &line) const
   {
-    return mayJoin(i) && (next(i, endOf(segment(i), 0), 0) >= 0 || next(i, endOf(segment(i), 1), 1) >= 0);
-  }
-
-  /// The line of a piece.
-  KOKKOS_INLINE_FUNCTION Line lineOf(int i) const
-  {
-    Line line{segment(i), i, hit(i).gap};
-    Vector2 const half = (0.5 * segment(i).length) * perpendicular(segment(i).normal);
-    Vector2 end[2] = {segment(i).midpoint - half, segment(i).midpoint + half};
+    if (!mayJoin(i))
+      return false;
+    Vector2 end[2] = {endOf(segment(i), 0), endOf(segment(i), 1)};
     double longest = segment(i).length;
+    int pieces = 1;
+    line.carrier = i;
+    line.gap = hit(i).gap;
     for (int side = 0; side < 2; ++side)
       for (int j = next(i, end[side], side); j >= 0; j = next(j, end[side], side))
       {
+        ++pieces;
         end[side] = endOf(segment(j), side);
         line.gap = Math::min(line.gap, hit(j).gap);
         if (segment(j).length > longest || (segment(j).length == longest && j < line.carrier))
@@ -54,14 +61,16 @@ struct JoinedSegments
           line.carrier = j;
         }
       }
+    if (pieces == 1 || !isOnFaces(segment(i).cell, end[0]) || !isOnFaces(segment(i).cell, end[1]))
+      return false;
     Vector2 const along = end[1] - end[0];
     line.whole = segment(line.carrier);
     line.whole.length = norm(along);
     line.whole.midpoint = 0.5 * (end[0] + end[1]);
     Vector2 const direction = (1.0 / line.whole.length) * along;
     line.whole.normal = -perpendicular(direction);
-    line.whole.point = balancePoint(geometry, line.whole.midpoint, direction, line.whole.length);
-    return line;
+    line.whole.point = balancePoint(mesh.geometry, line.whole.midpoint, direction, line.whole.length);
+    return true;
   }
 
 private:
@@ -69,6 +78,12 @@ private:
   static KOKKOS_INLINE_FUNCTION Vector2 endOf(InterfaceSegment const &s, int end)
   {
     return s.midpoint + ((end - 0.5) * s.length) * perpendicular(s.normal);
+  }
+
+  KOKKOS_INLINE_FUNCTION bool isOnFaces(int cell, Vector2 const &x) const
+  {
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    return isOnFace(q, 0, x) || isOnFace(q, 1, x) || isOnFace(q, 2, x) || isOnFace(q, 3, x);
   }
 
   KOKKOS_INLINE_FUNCTION bool mayJoin(int i) const

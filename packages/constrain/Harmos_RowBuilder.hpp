@@ -91,17 +91,7 @@ struct RowBuilder
            !(bearing.balance(a, b) == ShortSegments::Shared && pass(a, b));
   }
 
-  static KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 const &x)
-  {
-    constexpr double distance = 1e-6; // in lengths of the face
-    Vector2 const face = q[(k + 1) % 4] - q[k];
-    return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
-  }
-
-  KOKKOS_INLINE_FUNCTION JoinedSegments joinedSegments() const
-  {
-    return {mesh.geometry, segments.count, segment, hit, bearing};
-  }
+  KOKKOS_INLINE_FUNCTION JoinedSegments joinedSegments() const { return {mesh, segments.count, segment, hit, bearing}; }
 
   /// Whether segment i carries a row, if its line is long enough.
   KOKKOS_INLINE_FUNCTION bool mayCarryRow(int i) const
@@ -276,14 +266,13 @@ struct RowBuilder
     rows.count = 0;
     if (!mayCarryRow(i))
       return;
-    JoinedSegments const joined = joinedSegments();
-    rows.joined = joined.isPiece(i);
+    JoinedSegments::Line line;
+    rows.joined = joinedSegments().find(i, line);
     if (!rows.joined)
     {
       planAlong(segment(i), hit(i), i, rows);
       return;
     }
-    JoinedSegments::Line const line = joined.lineOf(i);
     RayHit to = hit(i);
     to.gap = line.gap;
     if (line.carrier == i)
@@ -391,8 +380,8 @@ struct RowBuilder
       {
         if (segment(i).material != a.material || hit(i).segment < 0)
           continue;
-        JoinedSegments const joined = joinedSegments();
-        InterfaceSegment const s = joined.isPiece(i) ? joined.lineOf(i).whole : segment(i);
+        JoinedSegments::Line line;
+        InterfaceSegment const &s = joinedSegments().find(i, line) ? line.whole : segment(i);
         InterfaceSegment const &faced = segment(hit(i).segment);
         if (faced.material != b.material || bearing.balance(s, faced) != ShortSegments::Shared || !isTooShort(s, faced))
           continue;
@@ -469,7 +458,8 @@ struct RowBuilder
 
   KOKKOS_INLINE_FUNCTION ContactRow makeRow(int i, PlannedRows const &rows, int half) const
   {
-    InterfaceSegment const whole = rows.joined ? joinedSegments().lineOf(i).whole : segment(i);
+    JoinedSegments::Line line;
+    InterfaceSegment const &whole = rows.joined && joinedSegments().find(i, line) ? line.whole : segment(i);
     InterfaceSegment const a = rows.count == 2 ? halfOf(whole, half) : whole;
     InterfaceSegment const &b = segment(rows.hit[half].segment);
     ContactRow row = {};
