@@ -52,6 +52,9 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 /// What comes slower keeps one, which is best conditioned: with two before any void the loaded length of Hertz's
 /// contact was off by half.
 ///
+/// Pieces of one line through a cell between two solids, which a wedge of void of less than 1e-3 cells parts, carry one
+/// row together (JoinedSegments).
+///
 /// Of short pieces of facets that meet where both sides are smooth arcs the gap is that of the arcs (curvedGap).
 ///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:

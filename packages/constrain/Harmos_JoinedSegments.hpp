@@ -8,7 +8,7 @@
 namespace Harmos
 {
 
-/// Whether a point lies on face k of a cell.
+/// Whether a point of a cell lies on its face k.
 KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 const &x)
 {
   constexpr double distance = 1e-6; // in lengths of the face
@@ -22,7 +22,8 @@ KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 cons
 /// beyond it the piece faces void, or the line has a bend of 1e-5 there. With a row for each piece the two sides could
 /// not turn against each other in that cell, as they can in all others, from the cycle on in which the wedge appears:
 /// what they did so was lost, 6% of the energy of blocks that ring in 400 cycles (doc/decisions/0035). A line that ends
-/// inside of the cell, at a corner or where three bodies meet, keeps a row for each piece.
+/// inside of the cell, at a corner or where three bodies meet, keeps a row for each piece. So do all where tractions do
+/// not go over to the rows beside (ShortSegments::Shared: solids whose stress acts over what they fill in full cells).
 struct JoinedSegments
 {
   Mesh const &mesh;
@@ -36,7 +37,7 @@ struct JoinedSegments
   {
     InterfaceSegment whole; // of the piece that carries the row, but for where it lies
     int carrier;            // the longest piece, the first of equal ones
-    double gap;             // the least of the pieces'
+    double gap;             // the least of the pieces'; of a row for half of it: what its own ray meets
   };
 
   /// Whether segment i is one of several pieces of a line through its cell; if so, that.
@@ -106,6 +107,8 @@ private:
       if (b.material != a.material || dot(a.normal, b.normal) < straight || !mayJoin(j) ||
           segment(hit(j).segment).material != segment(hit(i).segment).material)
         return false;
+      if (!((side == 0 ? -1.0 : 1.0) * dot(b.midpoint - a.midpoint, perpendicular(a.normal)) > 0.0))
+        return false; // pieces shorter than `near` would each be the next of the other
       Vector2 const apart = endOf(b, 1 - side) - end;
       return dot(apart, apart) <= near * near * a.cell_size * a.cell_size;
     };

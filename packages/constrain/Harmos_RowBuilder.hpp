@@ -264,6 +264,7 @@ struct RowBuilder
   KOKKOS_INLINE_FUNCTION void plan(int i, PlannedRows &rows) const
   {
     rows.count = 0;
+    rows.joined = false;
     if (!mayCarryRow(i))
       return;
     JoinedSegments::Line line;

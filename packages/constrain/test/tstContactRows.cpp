@@ -312,6 +312,44 @@ TEST(ContactRows, piecesOfOneLineInACellCarryOneRow)
     }
 }
 
+// Two pieces, of 5e-7 and 4e-7 cells, in the middle of a line: each ends as near to the other as pieces join.
+TEST(ContactRows, piecesShorterThanWhatJoins_carryOneRow)
+{
+  Plane2 const line{oblique, 4.321};
+  auto const with = [&line](bool cut)
+  {
+    auto const lower = [&line, cut](Quadrilateral const &q)
+    {
+      Region const whole = cutBy(q, line);
+      Region pieces;
+      for (int i = 0; i < whole.size; ++i)
+      {
+        Vector2 const a = whole[i], b = whole[whole.next(i)], middle = 0.5 * (a + b);
+        pieces.push(a);
+        bool const along = std::fabs(dot(oblique, a) - 4.321) < 1e-12 && std::fabs(dot(oblique, b) - 4.321) < 1e-12;
+        if (!cut || !along || norm(b - a) < 0.5)
+          continue;
+        Vector2 const step = (1e-7 / norm(b - a)) * (b - a);
+        for (double const at : {0.0, 5.0, 9.0})
+          pieces.push(middle + at * step);
+      }
+      return pieces;
+    };
+    TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)),
+                    {{0, lower}, {1, [&line](Quadrilateral const &q) { return cutBy(q, reversed(line)); }}}, 2,
+                    open_box);
+    scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, ShortSegments::Shared));
+    return rowsOf(scene);
+  };
+  auto const whole = with(false), pieces = with(true);
+  ASSERT_EQ(pieces.size(), whole.size());
+  for (std::size_t r = 0; r < whole.size(); ++r)
+  {
+    EXPECT_LT(norm(pieces[r].point - whole[r].point), 1e-12);
+    EXPECT_NEAR(pieces[r].length, whole[r].length, 1e-12);
+  }
+}
+
 namespace
 {
 
