@@ -52,6 +52,15 @@ TinyScene split(int n, std::function<Plane2(Quadrilateral const &)> const &line)
                    2, open_box);
 }
 
+/// Rows between two bodies, which a function cuts out of each of 8 x 8 cells.
+std::vector<ContactRow> rowsBetween(std::function<Region(Quadrilateral const &)> const &first,
+                                    std::function<Region(Quadrilateral const &)> const &second)
+{
+  TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)), {{0, first}, {1, second}}, 2, open_box);
+  scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, ShortSegments::Shared));
+  return rowsOf(scene);
+}
+
 double angleBetween(Vector2 const &a, Vector2 const &b)
 {
   return std::fabs(std::atan2(cross(a, b), dot(a, b)));
@@ -288,12 +297,8 @@ TEST(ContactRows, piecesOfOneLineInACellCarryOneRow)
       clip(whole, {(1.0 / norm(turned)) * turned, dot(turned, bend) / norm(turned)}, less);
       return less;
     };
-    TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)),
-                    {{0, [cut](Quadrilateral const &q) { return cut(0, q); }},
-                     {1, [cut](Quadrilateral const &q) { return cut(1, q); }}},
-                    2, open_box);
-    scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, ShortSegments::Shared));
-    return rowsOf(scene);
+    return rowsBetween([cut](Quadrilateral const &q) { return cut(0, q); },
+                       [cut](Quadrilateral const &q) { return cut(1, q); });
   };
   auto const whole = with(-1, 0.0);
   for (int const body : {0, 1})
@@ -303,8 +308,7 @@ TEST(ContactRows, piecesOfOneLineInACellCarryOneRow)
       ASSERT_EQ(rows.size(), whole.size()) << body << " " << angle;
       for (std::size_t r = 0; r < rows.size(); ++r)
       {
-        EXPECT_LT(norm(rows[r].point - whole[r].point), 1e-4);
-        EXPECT_NEAR(rows[r].length, whole[r].length, 1e-4);
+        EXPECT_LT(norm(rows[r].point - whole[r].point) + std::fabs(rows[r].length - whole[r].length), 2e-4);
         EXPECT_NEAR(rows[r].gap, 0.0, 1e-12);
         for (int k = 0; k < 4; ++k)
           EXPECT_NEAR(rows[r].weight_a[k], whole[r].weight_a[k], 1e-3);
@@ -312,7 +316,7 @@ TEST(ContactRows, piecesOfOneLineInACellCarryOneRow)
     }
 }
 
-// Two pieces, of 5e-7 and 4e-7 cells, in the middle of a line: each ends as near to the other as pieces join.
+// Pieces of 5e-7 and 4e-7 cells in the middle of a line: each ends as near to the other as pieces join.
 TEST(ContactRows, piecesShorterThanWhatJoins_carryOneRow)
 {
   Plane2 const line{oblique, 4.321};
@@ -327,27 +331,18 @@ TEST(ContactRows, piecesShorterThanWhatJoins_carryOneRow)
         Vector2 const a = whole[i], b = whole[whole.next(i)], middle = 0.5 * (a + b);
         pieces.push(a);
         bool const along = std::fabs(dot(oblique, a) - 4.321) < 1e-12 && std::fabs(dot(oblique, b) - 4.321) < 1e-12;
-        if (!cut || !along || norm(b - a) < 0.5)
-          continue;
-        Vector2 const step = (1e-7 / norm(b - a)) * (b - a);
-        for (double const at : {0.0, 5.0, 9.0})
-          pieces.push(middle + at * step);
+        for (double const at : {0.0, 5e-7, 9e-7})
+          if (cut && along && norm(b - a) > 0.5)
+            pieces.push(middle + (at / norm(b - a)) * (b - a));
       }
       return pieces;
     };
-    TinyScene scene(rectilinearMesh(uniform(8, 8), uniform(8, 8)),
-                    {{0, lower}, {1, [&line](Quadrilateral const &q) { return cutBy(q, reversed(line)); }}}, 2,
-                    open_box);
-    scene.options.short_segments = deviceCopy("short_segments", std::vector<ShortSegments>(2, ShortSegments::Shared));
-    return rowsOf(scene);
+    return rowsBetween(lower, [&line](Quadrilateral const &q) { return cutBy(q, reversed(line)); });
   };
   auto const whole = with(false), pieces = with(true);
   ASSERT_EQ(pieces.size(), whole.size());
   for (std::size_t r = 0; r < whole.size(); ++r)
-  {
-    EXPECT_LT(norm(pieces[r].point - whole[r].point), 1e-12);
-    EXPECT_NEAR(pieces[r].length, whole[r].length, 1e-12);
-  }
+    EXPECT_LT(norm(pieces[r].point - whole[r].point) + std::fabs(pieces[r].length - whole[r].length), 1e-12);
 }
 
 namespace
