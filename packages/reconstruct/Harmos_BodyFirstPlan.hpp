@@ -2,37 +2,11 @@
 #ifndef HARMOS_BODY_FIRST_PLAN_HPP
 #define HARMOS_BODY_FIRST_PLAN_HPP
 
-#include <Harmos_BodyAround.hpp>
+#include <Harmos_ContinuedLines.hpp>
 #include <Harmos_PartedPlan.hpp>
 
 namespace Harmos
 {
-
-/// Mean over the neighbours of the squared differences between what both bodies fill there and what a sequence of cuts
-/// gives them when its two lines go on.
-/// \param components Two bodies and void.
-/// \param around Of body 0 and of body 1.
-KOKKOS_INLINE_FUNCTION double continuedMisfit(CellComponents const &components, RemovalPlan const &plan,
-                                              BodyAround const (&around)[2])
-{
-  double const volume[3] = {components.volume[plan.component[0]], components.volume[plan.component[1]],
-                            components.volume[plan.component[2]]};
-  Division const one = divide(components.polygon, plan.normal[0], volume[0], volume[1] + volume[2], components.weight);
-  Plane2 const second = divide(one.outside, plan.normal[1], volume[1], volume[2], components.weight).line;
-  Plane2 const beyond_first{-one.line.normal, -one.line.offset}, beyond_second{-second.normal, -second.offset};
-  Plane2 const bounds[3][2] = {{one.line, {}}, {beyond_first, second}, {beyond_first, beyond_second}};
-  double misfit = 0.0;
-  for (int i = 0; i < 3; ++i)
-  {
-    int const k = plan.component[i];
-    for (int j = 0; k < 2 && j < around[k].count; ++j)
-    {
-      double const miss = around[k].miss(j, bounds[i], i == 0 ? 1 : 2);
-      misfit += miss * miss;
-    }
-  }
-  return misfit / Math::max(1, around[0].count);
-}
 
 /// Turn the second line of a sequence to where the neighbours have least misfit: the best of 24 angles, and between its
 /// neighbours by golden section, to 1e-6. \return The misfit.
@@ -120,10 +94,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field
       unfinished += turned ? 0 : plan.unfinished;
       double const its_misfit =
           turned ? turnSecondLine(components, around, plan) : continuedMisfit(components, plan, around);
-      plan.error = 0.0;
-      forEachPart(components, plan,
-                  [&](Region const &part, int k, Vector2 const &normal)
-                  { plan.error += momentError(components, slivers, part, k, normal); });
+      plan.error = momentErrors(components, slivers, plan);
       if (its_misfit < best_misfit && plan.error <= most_miss * most_miss * least * least)
       {
         best = plan;

@@ -101,7 +101,7 @@ HARMOS_LARGE_FUNCTION void placeFilms(CellComponents const &components, RemovalP
 
 /// Three bodies, none a sliver, and void below `film_volume`: two films, along one body that is cut off first and
 /// between the other two. That body is the one along which least squares have put all void, where two films halve what
-/// the given plan misses of the bodies' first moments; or any, where they leave a tenth of it.
+/// the given plan misses of the bodies' first moments; or any, where they leave a third of it.
 ///
 /// At a T, where two bodies face each other beyond a third, least squares see the bar: its edge goes on in all
 /// neighbours, the line between the two in those beyond it alone. All void came to lie along the bar, and the next
@@ -112,7 +112,7 @@ HARMOS_LARGE_FUNCTION void placeFilms(CellComponents const &components, RemovalP
 HARMOS_LARGE_FUNCTION RemovalPlan filmPlan(ReconstructionField const &field, CellComponents const &components,
                                            SliverBounds const &slivers, RemovalPlan const &given, double error)
 {
-  constexpr double much_better = 0.25, with_another_first = 0.01; // of the error
+  constexpr double much_better = 0.25, with_another_first = 0.1; // of the error
   constexpr int open = 3;
   if (components.count != 4 || given.parted || error <= removal_tie)
     return given;

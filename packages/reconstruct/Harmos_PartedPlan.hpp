@@ -265,10 +265,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &fie
     return plan;
   SliverBounds tips = films;
   tips.of_void = films.of_body;
-  double error = 0.0;
-  forEachPart(components, plan,
-              [&](Region const &part, int k, Vector2 const &normal)
-              { error += momentError(components, films, part, k, normal); });
+  double const error = momentErrors(components, films, plan);
   if (error > most_miss * most_miss * volume * volume)
     return plan;
   if (may_be_tip)

@@ -5,6 +5,7 @@
 #include <Harmos_BodyFirstPlan.hpp>
 #include <Harmos_CornerCell.hpp>
 #include <Harmos_PartedPlan.hpp>
+#include <Harmos_ThreeBodyPlan.hpp>
 
 namespace Harmos
 {
@@ -66,7 +67,8 @@ HARMOS_LARGE_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, 
   RemovalPlan const body_first = bodyFirstPlan(field, components, slivers, sequence);
   if (body_first.component[0] != sequence.component[0])
     return body_first;
-  RemovalPlan const plan = partedPlan(field, components, slivers, sequence);
+  RemovalPlan const three_bodies = threeBodyPlan(field, components, slivers, sequence);
+  RemovalPlan const plan = partedPlan(field, components, slivers, three_bodies);
   return planForThinVoid(field, components, slivers, plan);
 }
 

@@ -231,6 +231,17 @@ KOKKOS_INLINE_FUNCTION void forEachPart(CellComponents const &components, Remova
   visit(polygon, plan.component[plan.count - 1], plan.normal[Math::max(0, plan.count - 2)]);
 }
 
+/// Sum over the components of a plan that is a sequence of momentError.
+HARMOS_LARGE_FUNCTION double momentErrors(CellComponents const &components, SliverBounds const &slivers,
+                                          RemovalPlan const &plan)
+{
+  double error = 0.0;
+  forEachPart(components, plan,
+              [&](Region const &part, int k, Vector2 const &normal)
+              { error += momentError(components, slivers, part, k, normal); });
+  return error;
+}
+
 /// Removal in a given order.
 HARMOS_LARGE_FUNCTION RemovalPlan fixedPlan(ReconstructionField const &field, CellComponents const &components,
                                             ReconstructionMethod method, SliverBounds const &slivers,

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CONTINUED_LINES_HPP
+#define HARMOS_CONTINUED_LINES_HPP
+
+#include <Harmos_BodyAround.hpp>
+#include <Harmos_RemovalPlan.hpp>
+
+namespace Harmos
+{
+
+/// Mean over the neighbours of the squared differences between what bodies fill there and what a sequence of cuts gives
+/// them when its lines go on.
+/// \param components Bodies and void, four at most.
+/// \param around Of the first bodies.
+template <int bodies>
+KOKKOS_INLINE_FUNCTION double continuedMisfit(CellComponents const &components, RemovalPlan const &plan,
+                                              BodyAround const (&around)[bodies])
+{
+  constexpr int most_lines = 3;
+  Plane2 line[most_lines];
+  Region polygon = components.polygon;
+  double rest = 1.0, misfit = 0.0;
+  for (int i = 0; i < plan.count; ++i)
+  {
+    int const k = plan.component[i];
+    bool const last = i + 1 == plan.count;
+    if (!last)
+    {
+      rest -= components.volume[k];
+      Division const cut = divide(polygon, plan.normal[i], components.volume[k], rest, components.weight);
+      line[i] = cut.line;
+      polygon = cut.outside;
+    }
+    for (int j = 0; k < bodies && j < around[k].count; ++j)
+    {
+      double const miss = around[k].miss(j, line, last ? i : i + 1);
+      misfit += miss * miss;
+    }
+    if (!last)
+      line[i] = {-line[i].normal, -line[i].offset};
+  }
+  return misfit / Math::max(1, around[0].count);
+}
+
+} // namespace Harmos
+
+#endif
