@@ -26,6 +26,12 @@ KOKKOS_INLINE_FUNCTION bool hasFlowed(ReconstructionField const &field, CellComp
   return hasFlowed(field.record(field.pairs.find(components.cell, components.material[body]), PlasticStrain));
 }
 
+/// Whether a body has no strength.
+KOKKOS_INLINE_FUNCTION bool isFluid(ReconstructionField const &field, CellComponents const &components, int body)
+{
+  return field.fluid.extent(0) > 0 && field.fluid(components.material[body]) == 1;
+}
+
 /// The corner of a body in the polygon that it shares with void, where two lines are exact and one is not: an error of
 /// at most 1e-6 of that of the straight line. Elsewhere, as at curved surfaces, the error of what is returned is above.
 ///
@@ -254,8 +260,8 @@ HARMOS_LARGE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, C
   constexpr double exact_miss = 1e-20; // squared, of the body that a straight line cuts off
   int const bodies = components.count - 1;
   bool const filled = components.material[bodies] != void_material;
-  auto const isFluid = [&](int k) { return field.fluid.extent(0) > 0 && field.fluid(components.material[k]) == 1; };
-  if (given.error > removal_tie && components.material[1] != void_material && (isFluid(0) || isFluid(1)) &&
+  if (given.error > removal_tie && components.material[1] != void_material &&
+      (isFluid(field, components, 0) || isFluid(field, components, 1)) &&
       (components.count == 2 ? filled : components.count == 3 && !filled && components.volume[2] < most_void_around))
     return embeddedCornerPlan(field, components, slivers, given);
   if (bodies > 2 || components.material[bodies] != void_material || given.error <= removal_tie)

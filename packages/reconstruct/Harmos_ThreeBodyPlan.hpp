@@ -3,6 +3,7 @@
 #define HARMOS_THREE_BODY_PLAN_HPP
 
 #include <Harmos_ContinuedLines.hpp>
+#include <Harmos_CornerCell.hpp>
 
 namespace Harmos
 {
@@ -17,7 +18,8 @@ namespace Harmos
 /// the wrong lines miss what the bodies fill there by a tenth of a cell and more, the right ones by a thousandth. So
 /// where the given lines miss it by a tenth (root of the mean square), an order is taken whose lines miss it by a tenth
 /// of that at most, if it misses the first moments by five times what the given one does at most. An exact body with a
-/// straight face stays the first.
+/// straight face stays the first. Fluids and matter that has flowed keep the given one: what they fill has no straight
+/// edges.
 HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field, CellComponents const &components,
                                                 SliverBounds const &slivers, RemovalPlan const &given)
 {
@@ -27,6 +29,9 @@ HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field
   int const bodies_here = components.material[count - 1] == void_material ? count - 1 : count;
   if (bodies_here != bodies || given.error <= removal_tie)
     return given;
+  for (int k = 0; k < bodies; ++k)
+    if (isFluid(field, components, k) || hasFlowed(field, components, k))
+      return given;
   BodyAround const around[bodies] = {BodyAround(field, components, 0), BodyAround(field, components, 1),
                                      BodyAround(field, components, 2)};
   double const misfit = continuedMisfit(components, given, around);

@@ -39,6 +39,7 @@ CUTS = [0.5, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12]
 TEE_LOAD = 0.1  # of a thousandth of the bulk modulus
 COURANTS = [0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.999]
 OBLIQUE = [(20.0, 0.3), (45.0, 0.3), (20.0, 0.0), (45.0, 0.0)]  # angle of the interface, shear modulus
+RING_ANGLES = [20.0, 45.0, 70.0]
 CONTRASTS = [1.0, 1e3, 1e6]
 BLOCKS = [(0.0, (0.0, 0.0)), (0.0, (0.31, 0.17)), (30.0, (0.31, 0.17))]  # angle, offset in cells; the first slides along a cell face
 REFINEMENTS = [1, 2, 4, 8]  # of a box four cells high
@@ -112,6 +113,19 @@ def largest_courant(method, scene):
         else:
             high = middle
     return (COURANTS[low - 1] if low > 0 else 0.0), steps[-1]
+
+
+def ring_loss(method, tied, angles):
+    """Two blocks that ring at Courant 0.5: the most energy that contact has taken or given at any time, over the stored one; the worst angle."""
+    worst = 0.0
+    for angle in angles:
+        settings, left_area, _ = oblique(angle, 0.3)
+        if tied and method != "merged velocity":  # which ties by itself
+            settings["interactions"] = "{default: bonded}"
+        r, _ = ring(method, 0.5, settings, left_area)
+        worst = max(worst, max(map(abs, r["contact_loss"])) / (0.5 * 0.001**2 * left_area) if r.status == 0 else float("inf"))
+        clean(r)
+    return worst
 
 
 def block(method, angle, offset, pressure):
@@ -234,6 +248,8 @@ def measure(quick, jobs):
         for angle, shear in OBLIQUE[-1:] if quick else OBLIQUE:
             name = f"{angle:.0f} degrees" + ("" if shear > 0.0 else ", no strength")
             f[f"stable step, {name}"] = largest_courant(method, oblique(angle, shear))[1]
+        for name, tied in (("tied", True), ("sliding", False)):
+            f[f"ringing blocks, {name}, energy"] = ring_loss(method, tied, RING_ANGLES[:1] if quick else RING_ANGLES)
         for name, pressure in (("unloaded", 0.0), ("squeezed", SQUEEZE)):
             runs = [block(method, angle, offset, pressure) for angle, offset in blocks]
             for key in ("momentum", "penetration", "iterations", "most iterations", "energy"):
@@ -370,6 +386,7 @@ EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0
 - **stable Courant, density and stiffness**: the same where the right block is denser or stiffer by the factor, at a cut of 1e-4 of a cell.
 - **stable step**: the same two blocks, alike, with an interface at 20 and 45 degrees to the mesh, and without shear strength: the mean step at the largest Courant number that is stable, over the time in which a wave crosses a cell.
   Parts of cut cells can have steeper gradients than their cells, and the step heeds them ([decision 0028](decisions/0028-steps-that-edges-allow.md)): where multipliers are below 0.999 the step was shortened, not the run lost.
+- **ringing blocks**: the same two blocks, elastic, at Courant 0.5 and 20, 45 and 70 degrees, tied (`interactions: {default: bonded}`) or sliding, so that the pressure between them falls to nothing in each period: energy that contact has taken or given after 400 cycles at most, over what was stored, the worst angle ([decision 0035](decisions/0035-pieces-of-a-line-are-one.md)). Exact is none, but for what is lost as sides that have parted meet again.
 - **block**: `example/sliding_block`, 8 cells over the block, half a length of slip, the worst of three: at 0 degrees along a cell face and 0.17 cells beside it, and at 30 degrees: change of the momentum along the platens over m V; penetration (overlap of moved regions) summed over the run, in cells; iterations a cycle, mean and most;
   energy that contact took, or gave, over the energy at the start. Rigid platens give the rows' normals ([decision 0022](decisions/0022-rigid-surfaces-give-the-normal.md)), so that whatever slides keeps its momentum to round-off, whichever the method, where it does not fail. Slivers lie by their centroids; with `sliver: 1e-3` penalties and Nitsche fail beside the face and at 30 degrees too: light films gain energy.
 - **T of three blocks**: two blocks on a third that slides below them, all deformable and squeezed between platens (load 0.1 of a thousandth of the bulk modulus), at 15 degrees to the mesh: largest difference of the slider's momentum from that of body-fitted blocks, over m V (these gain 9.4e-7).
