@@ -3,6 +3,7 @@
 #define HARMOS_BODY_FIRST_PLAN_HPP
 
 #include <Harmos_ContinuedLines.hpp>
+#include <Harmos_CornerCell.hpp>
 #include <Harmos_PartedPlan.hpp>
 
 namespace Harmos
@@ -56,14 +57,15 @@ HARMOS_LARGE_FUNCTION double turnSecondLine(CellComponents const &components, Bo
 /// leave of them. Round-off decided, and the next cycle found a bar that ended under the void; blocks hooked to it.
 /// The neighbours, full of the bar, know better. So where both lines, continued, miss them by a tenth of a cell, the
 /// body goes first whose lines miss them by a tenth of that, if the error (momentError) is that of first moments off by
-/// a tenth of the least volume at most. Void of some 1e-3 of the cell has no centroid to speak of where the bodies'
-/// edges are bent: if by that the lines of neither order fit, the void's is turned to the neighbours. Void between the
-/// bodies stays with the order that suits the moments.
+/// a tenth of the least volume at most. Where one of the bodies has another corner in a neighbour, a third is enough if
+/// the first moments are missed by five times what void first misses at most. Void of some 1e-3 of the cell has no
+/// centroid to speak of where the bodies' edges are bent: if by that the lines of neither order fit, the void's is
+/// turned to the neighbours. Void between the bodies stays with the order that suits the moments.
 HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field, CellComponents const &components,
                                                 SliverBounds const &slivers, RemovalPlan const &given)
 {
-  constexpr double poor_misfit = 1e-2, much_better = 1e-2; // squares
-  constexpr double most_miss = 0.1;                        // of the least volume
+  constexpr double poor_misfit = 1e-2, better = 0.1, much_better = 1e-2, as_good = 25.0; // squares
+  constexpr double most_miss = 0.1;                                                      // of the least volume
   constexpr int open = 2;
   if (components.count != 3 || components.material[open] != void_material || given.component[0] != open ||
       given.error <= removal_tie)
@@ -82,7 +84,8 @@ HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field
   if (!(misfit > poor_misfit))
     return given;
   RemovalPlan best = given;
-  double best_misfit = much_better * misfit;
+  double const most_error = mayHaveStraightEdges(field, components) ? as_good * given.error : 0.0;
+  double best_misfit = misfit;
   int unfinished = given.unfinished;
   for (int pass = 0; pass < 2 && best.component[0] == open; ++pass)
   {
@@ -95,7 +98,9 @@ HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field
       double const its_misfit =
           turned ? turnSecondLine(components, around, plan) : continuedMisfit(components, plan, around);
       plan.error = momentErrors(components, slivers, plan);
-      if (its_misfit < best_misfit && plan.error <= most_miss * most_miss * least * least)
+      bool const suits = its_misfit < much_better * misfit ? plan.error <= most_miss * most_miss * least * least
+                                                           : its_misfit < better * misfit && plan.error <= most_error;
+      if (its_misfit < best_misfit && suits)
       {
         best = plan;
         best_misfit = its_misfit;

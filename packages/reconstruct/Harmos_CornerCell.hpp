@@ -32,6 +32,15 @@ KOKKOS_INLINE_FUNCTION bool isFluid(ReconstructionField const &field, CellCompon
   return field.fluid.extent(0) > 0 && field.fluid(components.material[body]) == 1;
 }
 
+/// Whether all bodies of a cell may have straight edges: none is a fluid, none has flowed.
+KOKKOS_INLINE_FUNCTION bool mayHaveStraightEdges(ReconstructionField const &field, CellComponents const &components)
+{
+  for (int k = 0; k < components.count; ++k)
+    if (components.material[k] != void_material && (isFluid(field, components, k) || hasFlowed(field, components, k)))
+      return false;
+  return true;
+}
+
 /// The corner of a body in the polygon that it shares with void, where two lines are exact and one is not: an error of
 /// at most 1e-6 of that of the straight line. Elsewhere, as at curved surfaces, the error of what is returned is above.
 ///

@@ -118,11 +118,12 @@ HARMOS_LARGE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, double
 /// both bodies end there, and it suits their centroids better.
 ///
 /// A void that seems to lie between the bodies is bounded by faces along that line; each body's own centroid places it,
-/// and four free parameters would follow noise. A body that one cut leaves exact, as a rigid floor, seems to have no
-/// end there. In both cases only an exact cell is taken: an error, the neighbours' misfit included, of at most 1e-4 of
+/// and four free parameters would follow noise. So does one whose centroid is not beside both, though it may be at both
+/// ends, the one of them about to leave the cell. A body that one cut leaves exact, as a rigid floor, seems to have no
+/// end there. In these cases only an exact cell is taken: an error, the neighbours' misfit included, of at most 1e-4 of
 /// that of cutting in sequence (what bent edges leave of an exact one is up to 2e-6 of it just before a corner leaves
 /// the cell). Where bodies below film_volume go by least squares, tips leave no cell exact: there the
-/// sequence stays in both cases, and the neighbours' lines are not asked.
+/// sequence stays, and the neighbours' lines are not asked.
 ///
 /// What a sequence of cuts misses while corners pass each other is little in a cycle, and forgotten with it: the next
 /// one has the centroids of what was cut. The sum does not stay little: the line between the bodies turned upright
@@ -140,12 +141,12 @@ HARMOS_LARGE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, C
   for (int k = 0; k < 3; ++k)
     if (components.volume[k] < slivers.of(components, k))
       return sequence;
-  if (!voidIsBeside(components))
+  bool const wants_exact = slivers.of_body < film_volume;
+  bool only_exact = !voidIsBeside(components);
+  if (only_exact && !wants_exact)
     return sequence;
   PartingProblem problem(field, components, parting_misfit);
   PartedCell start[3];
-  bool const wants_exact = slivers.of_body < film_volume;
-  bool only_exact = false;
   for (int first = 2; first >= 0 && !only_exact; --first)
   {
     start[first] = partedAsOrder(problem, slivers, first);

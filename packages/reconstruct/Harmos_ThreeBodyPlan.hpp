@@ -16,7 +16,7 @@ namespace Harmos
 /// that overlapped leave of them is of the same size as the corner, and the one or the other is less. Bars that lost
 /// their corner to a block, or to void, in one cycle lost more in the next, and hooked. Continued into the neighbours,
 /// the wrong lines miss what the bodies fill there by a tenth of a cell and more, the right ones by a thousandth. So
-/// where the given lines miss it by a tenth (root of the mean square), an order is taken whose lines miss it by a tenth
+/// where the given lines miss it by a tenth (root of the mean square), an order is taken whose lines miss it by a third
 /// of that at most, if it misses the first moments by five times what the given one does at most. An exact body with a
 /// straight face stays the first. Fluids and matter that has flowed keep the given one: what they fill has no straight
 /// edges.
@@ -24,14 +24,11 @@ HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field
                                                 SliverBounds const &slivers, RemovalPlan const &given)
 {
   constexpr int bodies = 3;
-  constexpr double poor_misfit = 1e-2, much_better = 1e-2, as_good = 25.0; // squares
+  constexpr double poor_misfit = 1e-2, better = 0.1, as_good = 25.0; // squares
   int const count = components.count;
   int const bodies_here = components.material[count - 1] == void_material ? count - 1 : count;
-  if (bodies_here != bodies || given.error <= removal_tie)
+  if (bodies_here != bodies || given.error <= removal_tie || !mayHaveStraightEdges(field, components))
     return given;
-  for (int k = 0; k < bodies; ++k)
-    if (isFluid(field, components, k) || hasFlowed(field, components, k))
-      return given;
   BodyAround const around[bodies] = {BodyAround(field, components, 0), BodyAround(field, components, 1),
                                      BodyAround(field, components, 2)};
   double const misfit = continuedMisfit(components, given, around);
@@ -40,7 +37,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field
   double const most_error = as_good * momentErrors(components, slivers, given);
   bool const keeps_first = components.holds(components.exact, given.component[0]);
   RemovalPlan best = given;
-  double least = much_better * misfit;
+  double least = better * misfit;
   int unfinished = given.unfinished;
   for (int first = 0; first < count; ++first)
     for (int second = 0; second < count; ++second)

@@ -59,15 +59,12 @@ void printScene(TinyScene const &scene)
 std::vector<std::vector<GroupShare>> sharesOf(TinyScene const &scene, std::vector<ContactRow> const &rows)
 {
   std::vector<std::vector<GroupShare>> own;
-  std::vector<RowTrace> trace;
-  for (ContactRow const &row : rows)
-  {
-    own.push_back({{static_cast<int>(own.size()), 1.0}});
-    trace.push_back(rowTrace(scene.mesh, row));
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    own.push_back({{static_cast<int>(i), 1.0}});
   int groups = 0;
-  return sharesMultipliers(scene.options.placement) ? vitalGroups(trace, std::vector<int>(rows.size(), 0), groups)
-                                                    : own;
+  return sharesMultipliers(scene.options.placement)
+             ? vitalGroups(tracesOf(scene.mesh, rows), std::vector<int>(rows.size(), 0), groups)
+             : own;
 }
 
 void printRows(TinyScene const &scene)

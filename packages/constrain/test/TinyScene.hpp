@@ -2,10 +2,13 @@
 #ifndef HARMOS_CONSTRAIN_TEST_TINY_SCENE_HPP
 #define HARMOS_CONSTRAIN_TEST_TINY_SCENE_HPP
 
+#include <Harmos_Bilinear.hpp>
 #include <Harmos_Clip.hpp>
 #include <Harmos_Constrain.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Moments.hpp>
+#include <Harmos_OnHost.hpp>
+#include <Harmos_RowTrace.hpp>
 
 #include <functional>
 #include <vector>
@@ -176,6 +179,17 @@ struct TinyScene
     return s;
   }
 
+  /// The pair of a material in a cell, or -1.
+  int pairOf(int cell, int of_material) const
+  {
+    auto const offset = onHost(pairs.offset);
+    auto const material = onHost(pairs.material);
+    for (int pair = offset(cell); pair < offset(cell + 1); ++pair)
+      if (material(pair) == of_material)
+        return pair;
+    return -1;
+  }
+
   void applyConditions()
   {
     auto const n = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), velocity_n);
@@ -268,6 +282,59 @@ private:
 inline std::vector<double> uniform(double length, int cells)
 {
   return gradedCoordinates(0.0, length, cells, 1.0);
+}
+
+/// Corners of all cells.
+inline HostView<Quadrilateral *> cellsOf(Mesh const &mesh)
+{
+  View<Quadrilateral *> const corner("corner", mesh.num_cells);
+  Kokkos::parallel_for(
+      "cellsOf", RangePolicy(0, mesh.num_cells),
+      KOKKOS_LAMBDA(int cell) { corner(cell) = cellQuadrilateral(mesh, cell); });
+  return onHost(corner);
+}
+
+/// The filled regions of all pairs.
+inline HostView<Region *> regionsOf(TinyScene const &scene)
+{
+  Mesh const mesh = scene.mesh;
+  CellMaterialPairs const pairs = scene.pairs;
+  FilledRegions const regions = scene.regions;
+  View<Region *> const region("region", pairs.num_pairs);
+  Kokkos::parallel_for(
+      "regionsOf", RangePolicy(0, pairs.num_pairs),
+      KOKKOS_LAMBDA(int pair) { region(pair) = regions.region(mesh, pairs, pair); });
+  return onHost(region);
+}
+
+/// The same, moved over the step.
+inline HostView<Region *> movedRegions(TinyScene const &scene)
+{
+  auto const corner = cellsOf(scene.mesh);
+  auto const region = regionsOf(scene);
+  auto const cell = onHost(scene.pairs.cell);
+  auto const dof = onHost(scene.pairs.dof_node);
+  auto const half = onHost(scene.half);
+  for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
+    for (int i = 0; i < region(pair).size; ++i)
+    {
+      Vector2 &x = region(pair)[i];
+      double weight[4];
+      shapeFunctionsAt(corner(cell(pair)), x, weight);
+      for (int k = 0; k < 4; ++k)
+        x += (scene.dt * weight[k]) * Vector2{half(dof(pair, k), 0), half(dof(pair, k), 1)};
+    }
+  return region;
+}
+
+inline std::vector<RowTrace> tracesOf(Mesh const &mesh, std::vector<ContactRow> const &rows)
+{
+  View<ContactRow *> const row = deviceCopy("row", rows);
+  View<RowTrace *> const trace("trace", rows.size());
+  Kokkos::parallel_for(
+      "tracesOf", RangePolicy(0, rows.size()), KOKKOS_LAMBDA(int i) { trace(i) = rowTrace(mesh, row(i)); });
+  auto const host = onHost(trace);
+  return std::vector<RowTrace>(host.data(), host.data() + rows.size());
 }
 
 inline std::vector<BoundaryKind> const open_box(4, BoundaryKind::Outflow);

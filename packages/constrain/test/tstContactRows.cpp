@@ -245,9 +245,10 @@ TEST(ContactRows, weightsAreThoseOfTheSweptVolumeWhereStressIsInBalanceWithThem)
   TinyScene scene = apart(0.0, ShortSegments::Kept);
   auto const rows = rowsOf(scene);
   EXPECT_GT(rows.size(), 10u);
+  auto const cell = cellsOf(scene.mesh);
   for (ContactRow const &r : rows)
   {
-    Quadrilateral const q = cellQuadrilateral(scene.mesh, r.cell_a);
+    Quadrilateral const &q = cell(r.cell_a);
     double N[3][4];
     for (int j = 0; j < 3; ++j)
       shapeFunctionsAt(q, r.point + (0.5 * (j - 1) * r.length) * perpendicular(oblique), N[j]);
@@ -359,34 +360,18 @@ TinyScene wedgeBelowBlock(double gap, double V)
   return scene;
 }
 
-/// A cell's region of a material, moved over the step.
-Region movedRegion(TinyScene const &scene, int pair)
-{
-  Quadrilateral const cell = cellQuadrilateral(scene.mesh, scene.pairs.cell(pair));
-  Region region = scene.regions.region(scene.mesh, scene.pairs, pair);
-  for (int i = 0; i < region.size; ++i)
-  {
-    double weight[4];
-    shapeFunctionsAt(cell, region[i], weight);
-    for (int k = 0; k < 4; ++k)
-    {
-      int const dof = scene.pairs.dof_node(pair, k);
-      region[i] += (scene.dt * weight[k]) * Vector2{scene.half(dof, 0), scene.half(dof, 1)};
-    }
-  }
-  return region;
-}
-
 /// Area in which moved regions of the two materials overlap.
 double overlapAfterStep(TinyScene const &scene)
 {
+  auto const moved = movedRegions(scene);
+  auto const material = onHost(scene.pairs.material);
   double sum = 0.0;
   for (int p = 0; p < scene.pairs.num_pairs; ++p)
     for (int q = 0; q < scene.pairs.num_pairs; ++q)
-      if (scene.pairs.material(p) == 0 && scene.pairs.material(q) == 1)
+      if (material(p) == 0 && material(q) == 1)
       {
         Polygon<24> both;
-        clipConvex(movedRegion(scene, p), movedRegion(scene, q), both);
+        clipConvex(moved(p), moved(q), both);
         sum += area(both);
       }
   return sum;

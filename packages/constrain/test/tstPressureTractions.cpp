@@ -57,23 +57,33 @@ TinyScene steps(int fluid, double body_density, double open = 0.0)
 void press(TinyScene &scene, double p)
 {
   scene.stress.pressure = View<double *[3]>("pressure", scene.pairs.num_pairs);
+  auto const pressures = Kokkos::create_mirror_view(scene.stress.pressure);
+  auto const record = onHost(scene.record);
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
   {
-    scene.stress.pressure(pair, 0) = p;
-    scene.stress.pressure(pair, 1) = scene.stress.pressure(pair, 2) = scene.record(pair, VolumeFraction);
+    pressures(pair, 0) = p;
+    pressures(pair, 1) = pressures(pair, 2) = record(pair, VolumeFraction);
   }
+  Kokkos::deep_copy(scene.stress.pressure, pressures);
 }
 
 /// v* of the fluid by p n on all edges of its regions: the ends and the middle of those inside of cells count as the
 /// volume that they sweep does, those on cell faces in the middle.
 void drive(TinyScene &scene, int fluid, double p)
 {
+  auto const corner = cellsOf(scene.mesh);
+  auto const regions = regionsOf(scene);
+  auto const material = onHost(scene.pairs.material);
+  auto const cell = onHost(scene.pairs.cell);
+  auto const dof_node = onHost(scene.pairs.dof_node);
+  auto const mass = onHost(scene.dof_mass);
+  auto const predicted = onHost(scene.predicted);
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
   {
-    if (scene.pairs.material(pair) != fluid)
+    if (material(pair) != fluid)
       continue;
-    Quadrilateral const q = cellQuadrilateral(scene.mesh, scene.pairs.cell(pair));
-    Region const region = scene.regions.region(scene.mesh, scene.pairs, pair);
+    Quadrilateral const &q = corner(cell(pair));
+    Region const &region = regions(pair);
     for (int i = 0; i < region.size; ++i)
     {
       Vector2 const a = region[i], b = region[(i + 1) % region.size], edge = b - a;
@@ -87,33 +97,40 @@ void drive(TinyScene &scene, int fluid, double p)
         for (int k = 0; k < 4; ++k)
           for (int d = 0; d < 2; ++d)
           {
-            int const dof = scene.pairs.dof_node(pair, k);
-            scene.predicted(dof, d) += part[j] * N[k] * load[d] / scene.dof_mass(dof);
+            int const dof = dof_node(pair, k);
+            predicted(dof, d) += part[j] * N[k] * load[d] / mass(dof);
           }
       }
     }
   }
+  auto const node = onHost(scene.dof_nodes.node);
+  auto const node_index = onHost(scene.conditions.node_index);
+  auto const condition = onHost(scene.conditions.condition);
   for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
   {
-    int const index = scene.conditions.node_index(scene.dof_nodes.node(dof));
+    int const index = node_index(node(dof));
     if (index < 0)
       continue;
-    Vector2 const v = scene.conditions.condition(index).apply({scene.predicted(dof, 0), scene.predicted(dof, 1)});
-    scene.predicted(dof, 0) = v[0];
-    scene.predicted(dof, 1) = v[1];
+    Vector2 const v = condition(index).apply({predicted(dof, 0), predicted(dof, 1)});
+    predicted(dof, 0) = v[0];
+    predicted(dof, 1) = v[1];
   }
+  Kokkos::deep_copy(scene.predicted, predicted);
 }
 
 double fastest(TinyScene const &scene)
 {
+  auto const half = onHost(scene.half);
   double most = 0.0;
   for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
-    most = std::max({most, std::fabs(scene.half(dof, 0)), std::fabs(scene.half(dof, 1))});
+    most = std::max({most, std::fabs(half(dof, 0)), std::fabs(half(dof, 1))});
   return most;
 }
 
-double largest(View<double *[2]> const &v, View<double *[2]> const &w)
+double largest(View<double *[2]> const &first, View<double *[2]> const &second)
 {
+  auto const v = onHost(first);
+  auto const w = onHost(second);
   double most = 0.0;
   for (std::size_t dof = 0; dof < v.extent(0); ++dof)
     most = std::max({most, std::fabs(v(dof, 0) - w(dof, 0)), std::fabs(v(dof, 1) - w(dof, 1))});
@@ -212,16 +229,20 @@ double loadOver(double own)
   auto const loads = [&](double p)
   {
     press(scene, pressure);
-    scene.stress.pressure(scene.pairs.find(cell, 1), 0) = p;
+    auto const pressures = onHost(scene.stress.pressure);
+    pressures(scene.pairOf(cell, 1), 0) = p;
+    Kokkos::deep_copy(scene.stress.pressure, pressures);
     PressureTractions tractions;
     tractions.pressure = scene.stress.pressure;
     findContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions,
                     buildBodyTable(scene.bodies_n, 2), scene.bonds, scene.options, *scene.exchange,
                     {scene.predicted, buildBodyTable(scene.bodies_n, 2)}, scene.dt, nullptr, {}, {}, &tractions);
+    auto const row = onHost(tractions.rows.row);
+    auto const load = onHost(tractions.load);
     double sum = 0.0;
     for (int r = 0; r < tractions.rows.count; ++r)
-      if (tractions.rows.row(r).material_a == 1 && tractions.rows.row(r).cell_a == cell)
-        sum += std::hypot(tractions.load(r, 0), tractions.load(r, 1));
+      if (row(r).material_a == 1 && row(r).cell_a == cell)
+        sum += std::hypot(load(r, 0), load(r, 1));
     return sum;
   };
   return loads(own * pressure) / loads(pressure);
@@ -231,12 +252,13 @@ TEST(PressureTractions, areTheMeanOfPressuresUpToTheCellsOwn)
 {
   TinyScene const scene = steps(1, 2.0);
   int const cell = 3 * 8 + 4;
-  double const part = scene.record(scene.pairs.find(cell, 1), VolumeFraction);
+  auto const record = onHost(scene.record);
+  double const part = record(scene.pairOf(cell, 1), VolumeFraction);
   double volume = 0.0;
   for (int row = 2; row < 5; ++row)
     for (int column = 3; column < 6; ++column)
-      if (int const pair = scene.pairs.find(8 * row + column, 1); pair >= 0)
-        volume += scene.record(pair, VolumeFraction);
+      if (int const pair = scene.pairOf(8 * row + column, 1); pair >= 0)
+        volume += record(pair, VolumeFraction);
   double const own = part / volume;
   EXPECT_NEAR(loadOver(3.0), 1.0 + 2.0 * own, 1e-12);
   EXPECT_NEAR(loadOver(1.05), 1.0 + 0.05 * own, 1e-12);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_OnHost.hpp>
 #include <Harmos_SegmentBins.hpp>
 
 #include <gtest/gtest.h>
@@ -38,9 +39,21 @@ std::vector<Vector2> scattered(int count)
 /// What a walk meets, and what it should: by bin row, bin column, number.
 std::vector<int> walked(SegmentBins const &bins, Vector2 const &low, Vector2 const &high)
 {
-  std::vector<int> met;
-  bins.forEach(low, high, [&](int, BinnedSegment const &s) { met.push_back(s.segment); });
-  return met;
+  View<int *> const met("met", bins.item.extent(0)), count("count", 1);
+  Kokkos::parallel_for(
+      "walked", RangePolicy(0, 1), KOKKOS_LAMBDA(int) {
+        bins.forEach(low, high, [&](int, BinnedSegment const &s) { met(count(0)++) = s.segment; });
+      });
+  auto const host = onHost(met);
+  return std::vector<int>(host.data(), host.data() + onHost(count)(0));
+}
+
+bool holdOthers(SegmentBins const &bins, Vector2 const &low, Vector2 const &high, int material)
+{
+  View<int *> const hold("hold", 1);
+  Kokkos::parallel_for(
+      "holdOthers", RangePolicy(0, 1), KOKKOS_LAMBDA(int) { hold(0) = bins.holdOthers(low, high, material) ? 1 : 0; });
+  return onHost(hold)(0) == 1;
 }
 
 std::vector<int> expected(SegmentBins const &bins, std::vector<Vector2> const &x, Vector2 const &low,
@@ -152,10 +165,10 @@ TEST(SegmentBins, boxWithOneMaterialAlone_holdsNoOthers)
   }
   Kokkos::deep_copy(segments.segment, host);
   SegmentBins const bins = binSegments(segments, 0.3);
-  EXPECT_FALSE(bins.holdOthers({0.0, 0.0}, {2.0, 0.3}, 5));
-  EXPECT_TRUE(bins.holdOthers({0.0, 0.0}, {2.0, 0.3}, 4));
-  EXPECT_TRUE(bins.holdOthers({0.0, 0.0}, {3.2, 0.3}, 5));
-  EXPECT_FALSE(bins.holdOthers({-9.0, -9.0}, {-8.0, -8.0}, 5));
+  EXPECT_FALSE(holdOthers(bins, {0.0, 0.0}, {2.0, 0.3}, 5));
+  EXPECT_TRUE(holdOthers(bins, {0.0, 0.0}, {2.0, 0.3}, 4));
+  EXPECT_TRUE(holdOthers(bins, {0.0, 0.0}, {3.2, 0.3}, 5));
+  EXPECT_FALSE(holdOthers(bins, {-9.0, -9.0}, {-8.0, -8.0}, 5));
   // Materials from 63 on, and walls, share a bit: they are never told apart.
-  EXPECT_TRUE(bins.holdOthers({3.3, 0.0}, {3.5, 0.1}, 70));
+  EXPECT_TRUE(holdOthers(bins, {3.3, 0.0}, {3.5, 0.1}, 70));
 }

@@ -14,7 +14,7 @@ namespace
 std::vector<RowTrace> tracesOfLine(int columns, double y0, double slope)
 {
   Mesh const mesh = buildMesh(rectilinearMesh(uniform(columns, columns), uniform(8, 8)));
-  std::vector<RowTrace> traces;
+  std::vector<ContactRow> rows;
   double const c = 1.0 / std::sqrt(1.0 + slope * slope);
   for (int column = 0; column < columns; ++column)
     for (int row = 0; row < 8; ++row)
@@ -35,9 +35,9 @@ std::vector<RowTrace> tracesOfLine(int columns, double y0, double slope)
       contact.point = {x, y};
       contact.normal = {-slope * c, c};
       contact.length = (x1 - x0) / c;
-      traces.push_back(rowTrace(mesh, contact));
+      rows.push_back(contact);
     }
-  return traces;
+  return tracesOf(mesh, rows);
 }
 
 double sum(std::vector<std::vector<GroupShare>> const &shares, int group)

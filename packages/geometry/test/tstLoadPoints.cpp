@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_LoadPoints.hpp>
+#include <Harmos_OnHost.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +12,9 @@ namespace
 {
 
 /// 0, 1, 2, ... in rows.
-View<double *[2]> countedPoints(int count)
+HostView<double *[2]> countedPoints(int count)
 {
-  View<double *[2]> const points("points", count);
+  auto const points = Kokkos::create_mirror_view(View<double *[2]>("points", count));
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < 2; ++j)
       points(i, j) = 2 * i + j;
@@ -28,6 +29,41 @@ std::vector<int> countedCorners(int step)
     for (int first : {5, 6, 30, 29})
       corner.push_back(first + lane * step);
   return corner;
+}
+
+struct LoadedCorners
+{
+  bool count_up, count_up_without_run;
+  double x[4][pack_width], y[4][pack_width];
+};
+
+/// What the lanes load whose corners are the rows from `first` on.
+LoadedCorners loadedCorners(View<int *[4]> const &corner, int first, View<double *[2]> const &points)
+{
+  RowPointer<int, 4> const corners = corner;
+  RowPointer<double, 2> const values = points;
+  View<LoadedCorners *> const loaded("loaded", 1);
+  Kokkos::parallel_for(
+      "loadedCorners", RangePolicy(0, 1), KOKKOS_LAMBDA(int) {
+        int index[pack_width];
+        for (int lane = 0; lane < pack_width; ++lane)
+          index[lane] = lane + first;
+        PackedCornerRows const rows(corners, index, true);
+        LoadedCorners &all = loaded(0);
+        all.count_up = rows.count_up;
+        all.count_up_without_run = PackedCornerRows(corners, index, false).count_up;
+        for (int k = 0; k < 4; ++k)
+        {
+          Pack x, y;
+          loadCorner(rows, values, k, x, y);
+          for (int lane = 0; lane < pack_width; ++lane)
+          {
+            all.x[k][lane] = laneOf(x, lane);
+            all.y[k][lane] = laneOf(y, lane);
+          }
+        }
+      });
+  return onHost(loaded)(0);
 }
 
 } // namespace
@@ -74,28 +110,25 @@ TEST(LoadPoints, run_isLoadedAndStoredAsItsRowsAre)
 TEST(LoadPoints, corners_areThoseOfEachLane)
 {
   auto const points = countedPoints(100);
+  View<double *[2]> const device_points("points", 100);
+  Kokkos::deep_copy(device_points, points);
   for (int moved = -1; moved < 4 * pack_width; ++moved) // none, then one corner elsewhere
   {
-    View<int *[4]> const corner("corner", pack_width + 3);
+    View<int *[4]> const device_corner("corner", pack_width + 3);
+    auto const corner = Kokkos::create_mirror_view(device_corner);
     std::vector<int> const counted = countedCorners(1);
     for (int i = 0; i < 4 * pack_width; ++i)
       corner(i / 4 + 3, i % 4) = counted[i] + (i == moved ? 17 : 0);
-    int index[pack_width];
-    for (int lane = 0; lane < pack_width; ++lane)
-      index[lane] = lane + 3;
-    PackedCornerRows const rows(corner, index, true);
-    EXPECT_EQ(rows.count_up, moved < 0 || pack_width == 1);
-    EXPECT_FALSE(PackedCornerRows(corner, index, false).count_up);
+    Kokkos::deep_copy(device_corner, corner);
+    LoadedCorners const loaded = loadedCorners(device_corner, 3, device_points);
+    EXPECT_EQ(loaded.count_up, moved < 0 || pack_width == 1);
+    EXPECT_FALSE(loaded.count_up_without_run);
     for (int k = 0; k < 4; ++k)
-    {
-      Pack x, y;
-      loadCorner(rows, points, k, x, y);
       for (int lane = 0; lane < pack_width; ++lane)
       {
-        EXPECT_EQ(laneOf(x, lane), points(corner(index[lane], k), 0));
-        EXPECT_EQ(laneOf(y, lane), points(corner(index[lane], k), 1));
+        EXPECT_EQ(loaded.x[k][lane], points(corner(lane + 3, k), 0));
+        EXPECT_EQ(loaded.y[k][lane], points(corner(lane + 3, k), 1));
       }
-    }
   }
 }
 

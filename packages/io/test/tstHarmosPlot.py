@@ -42,6 +42,10 @@ class HarmosPlot(unittest.TestCase):
         for field in ("pressure", "velocity", "deviator_xy"):  # a scalar, a length, a component
             self.assertGreater(len(numpy.unique(self.picture(RUN, "--field", field).reshape(-1, 3), axis=0)), 20, field)
 
+    def test_negativeNumbers_areNoOptions(self):
+        limits = self.picture(RUN, "--field", "pressure", "--range", "-2e7", "2e7", "--window", "-1e-1", "0.5", "-.1", "0.5")
+        self.assertTrue((limits == self.picture(RUN, "--field", "pressure", "--range", "-20000000.0", "20000000.0", "--window", "-0.1", "0.5", "-0.1", "0.5")).all())
+
     def test_greyMaterial_isGreyAndLeavesTheColourRangeAlone(self):
         pixels = self.picture(RUN, "--field", "pressure", "--grey", "copper", "--outline", "0", "--no-interface")
         grey = (abs(pixels.reshape(-1, 3).astype(int) - [0xB9, 0xBC, 0xC0]).sum(axis=1) < 6).sum()

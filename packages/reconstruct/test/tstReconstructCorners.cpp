@@ -284,8 +284,10 @@ TEST(ReconstructCorners, bodyThatHasFlowed_keepsStraightLines)
   auto const corners = [&](double strain)
   {
     Scene const scene = paint(mesh, bodies({square}));
+    auto const record = onHost(scene.state.record);
     for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
-      scene.state.record(pair, PlasticStrain) = strain;
+      record(pair, PlasticStrain) = strain;
+    Kokkos::deep_copy(scene.state.record, record);
     auto const cut = onHost(reconstructed(scene, sliver).cut_component);
     int number = 0;
     for (std::size_t i = 0; i < cut.extent(0); ++i)
@@ -294,6 +296,17 @@ TEST(ReconstructCorners, bodyThatHasFlowed_keepsStraightLines)
   };
   EXPECT_EQ(corners(0.09), 4);
   EXPECT_EQ(corners(0.11), 0);
+}
+
+bool firstBodyGoesOn(ReconstructionField const &field, int cell)
+{
+  View<int *> const goes_on("goes_on", 1);
+  Kokkos::parallel_for(
+      "firstBodyGoesOn", RangePolicy(0, 1), KOKKOS_LAMBDA(int) {
+        CellComponents const components = cellComponents(field, cell, true);
+        goes_on(0) = BodyAround(field, components, 0).goesOn(components.volume[0]) ? 1 : 0;
+      });
+  return onHost(goes_on)(0) == 1;
 }
 
 // Searches for a corner are left out where the neighbours do not hold what would lie beyond it: not one corner's cell,
@@ -305,9 +318,7 @@ TEST(ReconstructCorners, cornersGoOnInTheNeighbours_fragmentsDoNot)
   auto const goesOn = [&](Body const &body)
   {
     Scene const scene = paint(mesh, bodies({body}));
-    ReconstructionField const field{scene.mesh, scene.pairs, scene.state.record, scene.state.centroid};
-    CellComponents const components = cellComponents(field, cell, true);
-    return BodyAround(field, components, 0).goesOn(components.volume[0]);
+    return firstBodyGoesOn({scene.mesh, scene.pairs, scene.state.record, scene.state.centroid}, cell);
   };
   for (double const opening : {40.0, 90.0, 140.0})
     for (double degrees = 0.0; degrees < 360.0; degrees += 7.0)
@@ -329,10 +340,51 @@ TEST(ReconstructCorners, cornersGoOnInTheNeighbours_fragmentsDoNot)
     EXPECT_FALSE(goesOn(round(radius))) << radius;
 }
 
+CellComponents componentsOf(ReconstructionField const &field, int cell)
+{
+  View<CellComponents *> const components("components", 1);
+  Kokkos::parallel_for(
+      "componentsOf", RangePolicy(0, 1), KOKKOS_LAMBDA(int) { components(0) = cellComponents(field, cell, true); });
+  return onHost(components)(0);
+}
+
+/// Of what a search for a corner measures, at one place: by unknown and residual.
+struct Derivatives
+{
+  int residuals;
+  double own[CornerCell::unknowns][CornerCell::most_residuals],
+      central[CornerCell::unknowns][CornerCell::most_residuals];
+};
+
+/// \param with_rim Whether `rim` is one. \param angles, part The unknowns.
+Derivatives derivativesAt(ReconstructionField const &field, CellComponents const &components, Region const &polygon,
+                          Plane2 const &rim, bool with_rim, Vector2 const &angles, double part)
+{
+  View<Derivatives *> const derivatives("derivatives", 1);
+  Kokkos::parallel_for(
+      "derivativesAt", RangePolicy(0, 1), KOKKOS_LAMBDA(int) {
+        constexpr double difference = 1e-5;
+        double const x[3] = {angles[0], angles[1], part};
+        CornerProblem const problem(field, components, 0, polygon, with_rim ? &rim : nullptr, 0.1);
+        Derivatives &d = derivatives(0);
+        d.residuals = 2 + problem.around.count;
+        problem.derivatives(problem.at(x), d.own);
+        for (int p = 0; p < CornerCell::unknowns; ++p)
+        {
+          double up[3] = {x[0], x[1], x[2]}, down[3] = {x[0], x[1], x[2]};
+          up[p] += difference;
+          down[p] -= difference;
+          CornerCell const above = problem.at(up), below = problem.at(down);
+          for (int r = 0; r < d.residuals; ++r)
+            d.central[p][r] = (above.residual[r] - below.residual[r]) / (2.0 * difference);
+        }
+      });
+  return onHost(derivatives)(0);
+}
+
 /// Derivatives of the search for a corner, two lines of any angles and parts, against central differences.
 void expectDerivatives(Geometry geometry, bool with_rim)
 {
-  constexpr double difference = 1e-5;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 100; ++i)
@@ -343,7 +395,7 @@ void expectDerivatives(Geometry geometry, bool with_rim)
     Scene const scene =
         paint(place.mesh, bodies({{halfPlane(ahead - 50.0, corner), halfPlane(ahead + 50.0, corner)}}, geometry));
     ReconstructionField const field{scene.mesh, scene.pairs, scene.state.record, scene.state.centroid};
-    CellComponents components = cellComponents(field, 3 * 7 + 3, true);
+    CellComponents components = componentsOf(field, 3 * 7 + 3);
     if (components.count < 2)
       continue;
     Region polygon = components.polygon;
@@ -357,20 +409,12 @@ void expectDerivatives(Geometry geometry, bool with_rim)
       components.volume[0] *= 0.9;
       components.volume[1] *= 0.9;
     }
-    CornerProblem const problem(field, components, 0, polygon, with_rim ? &rim : nullptr, 0.1);
-    double const x[3] = {6.0 * unit(random), 6.0 * unit(random), 0.1 + 0.8 * unit(random)};
-    double jacobian[CornerCell::unknowns][CornerCell::most_residuals];
-    problem.derivatives(problem.at(x), jacobian);
+    Vector2 const angles{6.0 * unit(random), 6.0 * unit(random)};
+    double const part = 0.1 + 0.8 * unit(random);
+    Derivatives const d = derivativesAt(field, components, polygon, rim, with_rim, angles, part);
     for (int p = 0; p < CornerCell::unknowns; ++p)
-    {
-      double up[3] = {x[0], x[1], x[2]}, down[3] = {x[0], x[1], x[2]};
-      up[p] += difference;
-      down[p] -= difference;
-      CornerCell const above = problem.at(up), below = problem.at(down);
-      for (int r = 0; r < 2 + problem.around.count; ++r)
-        EXPECT_NEAR(jacobian[p][r], (above.residual[r] - below.residual[r]) / (2.0 * difference), 2e-6)
-            << "corner " << i << ", unknown " << p << ", residual " << r;
-    }
+      for (int r = 0; r < d.residuals; ++r)
+        EXPECT_NEAR(d.own[p][r], d.central[p][r], 2e-6) << "corner " << i << ", unknown " << p << ", residual " << r;
   }
 }
 
