@@ -57,10 +57,10 @@ HARMOS_LARGE_FUNCTION double turnSecondLine(CellComponents const &components, Bo
 /// leave of them. Round-off decided, and the next cycle found a bar that ended under the void; blocks hooked to it.
 /// The neighbours, full of the bar, know better. So where both lines, continued, miss them by a tenth of a cell, the
 /// body goes first whose lines miss them by a tenth of that, if the error (momentError) is that of first moments off by
-/// a tenth of the least volume at most. Where one of the bodies has another corner in a neighbour, a third is enough if
-/// the first moments are missed by five times what void first misses at most. Void of some 1e-3 of the cell has no
-/// centroid to speak of where the bodies' edges are bent: if by that the lines of neither order fit, the void's is
-/// turned to the neighbours. Void between the bodies stays with the order that suits the moments.
+/// a tenth of the least volume at most. Of solids that have not flowed a third is enough, where another corner is in a
+/// neighbour, if the first moments are missed by five times what void first misses at most. Void of some 1e-3 of the
+/// cell has no centroid to speak of where the bodies' edges are bent: if by that the lines of neither order fit, the
+/// void's is turned to the neighbours. Void between the bodies stays with the order that suits the moments.
 HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field, CellComponents const &components,
                                                 SliverBounds const &slivers, RemovalPlan const &given)
 {
@@ -87,7 +87,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field
   double const most_error = mayHaveStraightEdges(field, components) ? as_good * given.error : 0.0;
   double best_misfit = misfit;
   int unfinished = given.unfinished;
-  for (int pass = 0; pass < 2 && best.component[0] == open; ++pass)
+  for (int pass = 0; pass < 2 && best_misfit >= much_better * misfit; ++pass)
   {
     bool const turned = pass == 1;
     for (int first = 0; first < 2; ++first)
@@ -98,8 +98,8 @@ HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field
       double const its_misfit =
           turned ? turnSecondLine(components, around, plan) : continuedMisfit(components, plan, around);
       plan.error = momentErrors(components, slivers, plan);
-      bool const suits = its_misfit < much_better * misfit ? plan.error <= most_miss * most_miss * least * least
-                                                           : its_misfit < better * misfit && plan.error <= most_error;
+      bool const suits = (its_misfit < much_better * misfit && plan.error <= most_miss * most_miss * least * least) ||
+                         (its_misfit < better * misfit && plan.error <= most_error);
       if (its_misfit < best_misfit && suits)
       {
         best = plan;

@@ -19,15 +19,17 @@ KOKKOS_INLINE_FUNCTION double continuedMisfit(CellComponents const &components, 
   constexpr int most_lines = 3;
   Plane2 line[most_lines];
   Region polygon = components.polygon;
-  double rest = 1.0, misfit = 0.0;
+  ComponentSet rest = components.all();
+  double misfit = 0.0;
   for (int i = 0; i < plan.count; ++i)
   {
     int const k = plan.component[i];
     bool const last = i + 1 == plan.count;
+    rest &= ~(1u << k);
     if (!last)
     {
-      rest -= components.volume[k];
-      Division const cut = divide(polygon, plan.normal[i], components.volume[k], rest, components.weight);
+      Division const cut =
+          divide(polygon, plan.normal[i], components.volume[k], components.volumeOf(rest), components.weight);
       line[i] = cut.line;
       polygon = cut.outside;
     }

@@ -118,7 +118,7 @@ HARMOS_LARGE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, double
 /// both bodies end there, and it suits their centroids better.
 ///
 /// A void that seems to lie between the bodies is bounded by faces along that line; each body's own centroid places it,
-/// and four free parameters would follow noise. So does one whose centroid is not beside both, though it may be at both
+/// and four free parameters would follow noise. Void whose centroid is not beside both bodies may be that, or at both
 /// ends, the one of them about to leave the cell. A body that one cut leaves exact, as a rigid floor, seems to have no
 /// end there. In these cases only an exact cell is taken: an error, the neighbours' misfit included, of at most 1e-4 of
 /// that of cutting in sequence (what bent edges leave of an exact one is up to 2e-6 of it just before a corner leaves

@@ -28,7 +28,8 @@ struct ReconstructionOptions
   /// 0: none.
   View<int *> exact;
   /// Materials: 1 where it has no strength. Beside such a one corners inside of another body are kept
-  /// (embeddedCornerPlan): a pressure acts on chords that are not there. Extent 0: none.
+  /// (embeddedCornerPlan): a pressure acts on chords that are not there; its neighbours tell no order (threeBodyPlan,
+  /// bodyFirstPlan). Extent 0: none.
   View<int *> fluid = {};
 };
 

@@ -8,8 +8,8 @@
 namespace Harmos
 {
 
-/// Three bodies, with or without void, in the order that the neighbours tell, where the given sequence is no order for
-/// them.
+/// Three bodies, none a sliver, with or without void, in the order that the neighbours tell, where the given sequence
+/// is no order for them.
 ///
 /// At a T whose junction is a hundredth of a cell from a face, the sequence that cuts a block first, its line right
 /// through the bar's corner, misses the first moments by as little as the bar first does: what bent edges and bodies
@@ -17,8 +17,8 @@ namespace Harmos
 /// their corner to a block, or to void, in one cycle lost more in the next, and hooked. Continued into the neighbours,
 /// the wrong lines miss what the bodies fill there by a tenth of a cell and more, the right ones by a thousandth. So
 /// where the given lines miss it by a tenth (root of the mean square), an order is taken whose lines miss it by a third
-/// of that at most, if it misses the first moments by five times what the given one does at most. An exact body with a
-/// straight face stays the first. Fluids and matter that has flowed keep the given one: what they fill has no straight
+/// of that at most, if it misses the first moments by five times what the given one does at most. An exact body
+/// that goes first stays so. Fluids and matter that has flowed keep the given one: what they fill has no straight
 /// edges.
 HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field, CellComponents const &components,
                                                 SliverBounds const &slivers, RemovalPlan const &given)
@@ -29,6 +29,9 @@ HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field
   int const bodies_here = components.material[count - 1] == void_material ? count - 1 : count;
   if (bodies_here != bodies || given.error <= removal_tie || !mayHaveStraightEdges(field, components))
     return given;
+  for (int k = 0; k < bodies; ++k)
+    if (components.volume[k] < slivers.of(components, k))
+      return given;
   BodyAround const around[bodies] = {BodyAround(field, components, 0), BodyAround(field, components, 1),
                                      BodyAround(field, components, 2)};
   double const misfit = continuedMisfit(components, given, around);

@@ -37,11 +37,12 @@ inline double noise(long long global, int d)
 }
 
 /// A mesh with inner nodes shifted at random, and those of walls along them.
-inline Mesh shiftedMesh(Mesh const &mesh, double amount)
+inline MeshOnHost shiftedMesh(MeshOnHost const &mesh, double amount)
 {
-  Mesh target = mesh;
-  target.node_position = View<double *[2]>("target", mesh.num_nodes);
-  separateGeometry(target);
+  Mesh copy = mesh.on_device;
+  copy.node_position = View<double *[2]>("target", mesh.num_nodes);
+  separateGeometry(copy);
+  MeshOnHost target(copy);
   for (int node = 0; node < mesh.num_nodes; ++node)
     for (int d = 0; d < 2; ++d)
     {

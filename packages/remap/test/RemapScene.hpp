@@ -2,12 +2,12 @@
 #ifndef HARMOS_REMAP_SCENE_HPP
 #define HARMOS_REMAP_SCENE_HPP
 
-#include <Harmos_Clip.hpp>
-#include <Harmos_MeshBuilder.hpp>
-#include <Harmos_Moments.hpp>
-#include <Harmos_OnHost.hpp>
-#include <Harmos_Remap.hpp>
+#include "RemapOnHost.hpp"
 
+#include <Harmos_Clip.hpp>
+#include <Harmos_Moments.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -54,11 +54,9 @@ inline Layer rest(int material)
 using Scalar = std::function<double(int material, Vector2 const &x)>;
 using VectorField = std::function<Vector2(int material, Vector2 const &x)>;
 
-/// A whole single-rank input of the remap.
-struct Scene
+/// What a remap reads, beside the mesh.
+struct RemapInput
 {
-  HostMesh host_mesh;
-  Mesh mesh;
   View<Boundary *> boundary;
   BoundaryConditions conditions;
   View<Material *> materials;
@@ -68,6 +66,19 @@ struct Scene
   FilledRegions regions;
   View<double *[2]> half;
   RigidRows rigid;
+};
+
+/// A whole single-rank input of the remap.
+struct Scene
+{
+  HostMesh host_mesh;
+  MeshOnHost mesh;
+  PairsOnHost pairs;
+  DofNodesOnHost dof_nodes;
+  StateOnHost state; // records and damage may be changed here: a remap begins with these
+  RegionsOnHost regions;
+  HostView<double *[2]> half;
+  RemapInput device;
   RemapOptions options;
   RemapReport report;
   Kinematics kinematics = Kinematics::Xfem;
@@ -95,14 +106,15 @@ struct Scene
                                           b.kind = kind;
                                           return b;
                                         }()));
-    materials = deviceCopy("materials", laws);
+    device.materials = deviceCopy("materials", laws);
   }
 
   /// The same mesh, x the radius.
   void aboutAxis()
   {
     geometry = Geometry::Axisymmetric;
-    setGeometry(mesh, geometry);
+    setGeometry(mesh.on_device, geometry);
+    mesh = MeshOnHost(mesh.on_device);
   }
 
   /// See the scene as rank 0 of a partition.
@@ -110,6 +122,7 @@ struct Scene
   {
     owner = cell_owner;
     halo = layers;
+    auto const boundary = onHost(device.boundary);
     std::vector<Boundary> kinds(boundary.extent(0));
     for (std::size_t i = 0; i < kinds.size(); ++i)
       kinds[i] = boundary(i);
@@ -118,10 +131,11 @@ struct Scene
 
   void setBoundaries(std::vector<Boundary> const &kinds)
   {
-    mesh = owner.empty() ? buildMesh(host_mesh) : buildLocalMesh(host_mesh, owner, 0, halo);
-    setGeometry(mesh, geometry);
-    boundary = deviceCopy("boundary", kinds);
-    conditions = buildBoundaryConditions(mesh, boundary);
+    Mesh built = owner.empty() ? buildMesh(host_mesh) : buildLocalMesh(host_mesh, owner, 0, halo);
+    setGeometry(built, geometry);
+    mesh = MeshOnHost(built);
+    device.boundary = deviceCopy("boundary", kinds);
+    device.conditions = buildBoundaryConditions(built, device.boundary);
   }
 
   /// Cut every cell into the layers, first one first; density and specific internal energy by field, sv = 1 / density.
@@ -152,30 +166,48 @@ struct Scene
     setPairs(offset, material, cell_of);
     setRegions(region_first, mixed, mixed_region);
     setState(region, density, energy);
-    dof_nodes = buildDofNodes(mesh, kinematics, state.record, pairs);
-    state.velocity = View<double *[2]>("velocity", dof_nodes.num_dof_nodes);
+    device.dof_nodes = buildDofNodes(mesh.on_device, kinematics, device.state.record, device.pairs);
+    pairs = PairsOnHost(device.pairs);
+    dof_nodes = DofNodesOnHost(device.dof_nodes);
+    device.state.velocity = View<double *[2]>("velocity", dof_nodes.num_dof_nodes);
+    state.velocity = onHost(device.state.velocity);
   }
 
   void move(VectorField const &velocity)
   {
-    half = View<double *[2]>("half", dof_nodes.num_dof_nodes);
+    device.half = View<double *[2]>("half", dof_nodes.num_dof_nodes);
+    half = Kokkos::create_mirror_view(device.half);
+    auto const node_index = onHost(device.conditions.node_index);
+    auto const condition = onHost(device.conditions.condition);
     for (int dof = 0; dof < dof_nodes.num_dof_nodes; ++dof)
     {
       int const node = dof_nodes.node(dof);
       Vector2 v = velocity(dof_nodes.material(dof), {mesh.node_position(node, 0), mesh.node_position(node, 1)});
-      int const index = conditions.node_index(node);
+      int const index = node_index(node);
       if (index >= 0)
-        v = conditions.condition(index).apply(v);
+        v = condition(index).apply(v);
       half(dof, 0) = v[0];
       half(dof, 1) = v[1];
     }
+    Kokkos::deep_copy(device.half, half);
   }
 
-  RemapResult remapped()
+  ResultOnHost remapped()
   {
     report = RemapReport{};
-    return remap(mesh, kinematics, pairs, dof_nodes, state, regions, conditions, materials, half, dt, rigid, options,
-                 report);
+    upload();
+    return ResultOnHost(remap(mesh.on_device, kinematics, device.pairs, device.dof_nodes, device.state, device.regions,
+                              device.conditions, device.materials, device.half, dt, device.rigid, options, report));
+  }
+
+  /// The same with work arrays that live longer, and perhaps from node positions `start` to another mesh.
+  ResultOnHost remapped(Mesh const &target, RemapReport &booked, RemapWork &work,
+                        View<double *[2]> const &start = {}) const
+  {
+    upload();
+    return ResultOnHost(remap(target, kinematics, device.pairs, device.dof_nodes, device.state, device.regions,
+                              device.conditions, device.materials, device.half, dt, device.rigid, options, booked, work,
+                              start));
   }
 
 private:
@@ -210,24 +242,28 @@ private:
 
   void setPairs(std::vector<int> const &offset, std::vector<int> const &material, std::vector<int> const &cell_of)
   {
-    pairs.num_pairs = static_cast<int>(material.size());
-    pairs.offset = deviceCopy("offset", offset);
-    pairs.material = deviceCopy("material", material);
-    pairs.cell = deviceCopy("cell", cell_of);
+    device.pairs.num_pairs = static_cast<int>(material.size());
+    device.pairs.offset = deviceCopy("offset", offset);
+    device.pairs.material = deviceCopy("material", material);
+    device.pairs.cell = deviceCopy("cell", cell_of);
+    pairs = PairsOnHost(device.pairs);
   }
 
   void setRegions(std::vector<int> const &first, std::vector<int> const &mixed, std::vector<Region> const &polygon)
   {
-    regions.num_mixed_cells = static_cast<int>(mixed.size());
-    regions.mixed_cell = deviceCopy("mixed", mixed);
-    regions.cell_region = deviceCopy("first", first);
-    regions.polygon = deviceCopy("polygon", polygon);
+    device.regions.num_mixed_cells = static_cast<int>(mixed.size());
+    device.regions.mixed_cell = deviceCopy("mixed", mixed);
+    device.regions.cell_region = deviceCopy("first", first);
+    device.regions.polygon = deviceCopy("polygon", polygon);
+    regions = RegionsOnHost(device.regions);
   }
 
   void setState(std::vector<Region> const &region, Scalar const &density, Scalar const &energy)
   {
-    state.record = View<double *[num_pair_fields]>("record", pairs.num_pairs);
-    state.centroid = View<double *[2]>("centroid", pairs.num_pairs);
+    device.state.record = View<double *[num_pair_fields]>("record", pairs.num_pairs);
+    device.state.centroid = View<double *[2]>("centroid", pairs.num_pairs);
+    state.record = Kokkos::create_mirror_view(device.state.record);
+    state.centroid = Kokkos::create_mirror_view(device.state.centroid);
     for (int pair = 0; pair < pairs.num_pairs; ++pair)
     {
       int const cell = pairs.cell(pair);
@@ -247,6 +283,15 @@ private:
       for (int d = 0; d < 2; ++d)
         state.centroid(pair, d) = centroid[d];
     }
+    Kokkos::deep_copy(device.state.centroid, state.centroid);
+    upload();
+  }
+
+  /// What may be changed on the host between two remaps.
+  void upload() const
+  {
+    Kokkos::deep_copy(device.state.record, state.record);
+    Kokkos::deep_copy(device.state.damage, state.damage);
   }
 };
 
@@ -257,8 +302,9 @@ struct Totals
   Vector2 momentum = {0.0, 0.0};
 };
 
-inline Totals totals(Mesh const &mesh, CellMaterialPairs const &pairs, View<double *[num_pair_fields]> const &record,
-                     View<double *[2]> const &velocity, int material = -1)
+inline Totals totals(MeshOnHost const &mesh, PairsOnHost const &pairs,
+                     HostView<double *[num_pair_fields]> const &record, HostView<double *[2]> const &velocity,
+                     int material = -1)
 {
   Totals t;
   for (int pair = 0; pair < pairs.num_pairs; ++pair)
@@ -284,7 +330,7 @@ inline Totals totals(Mesh const &mesh, CellMaterialPairs const &pairs, View<doub
 }
 
 /// Largest deviation of the sums of volume fractions from one over cells that satisfy a condition, and the largest sum.
-inline double largestSumOfFractions(Mesh const &mesh, RemapResult const &result)
+inline double largestSumOfFractions(MeshOnHost const &mesh, ResultOnHost const &result)
 {
   double largest = 0.0;
   for (int cell = 0; cell < mesh.num_cells; ++cell)
@@ -305,7 +351,7 @@ inline double wave(int material, Vector2 const &x)
 
 /// Numbers of values in which the owned cells of a part differ from the same cells of the whole: materials, records,
 /// velocities.
-inline long long differences(Scene const &part, RemapResult const &a, RemapResult const &b)
+inline long long differences(Scene const &part, ResultOnHost const &a, ResultOnHost const &b)
 {
   long long count = 0;
   for (int cell = 0; cell < part.mesh.num_cells; ++cell)
@@ -358,10 +404,10 @@ inline Scene sceneWithRigidBody(Scalar const &density)
       fraction.push_back(cell % 4 == 1 ? 0.44 : 1.0);
     offset.push_back(static_cast<int>(fraction.size()));
   }
-  scene.rigid.offset = deviceCopy("offset", offset);
-  scene.rigid.material = deviceCopy("material", std::vector<int>(fraction.size(), 1));
-  scene.rigid.volume_fraction = deviceCopy("fraction", fraction);
-  scene.rigid.centroid = View<double *[2]>("centroid", fraction.size());
+  scene.device.rigid.offset = deviceCopy("offset", offset);
+  scene.device.rigid.material = deviceCopy("material", std::vector<int>(fraction.size(), 1));
+  scene.device.rigid.volume_fraction = deviceCopy("fraction", fraction);
+  scene.device.rigid.centroid = View<double *[2]>("centroid", fraction.size());
   return scene;
 }
 

@@ -56,7 +56,7 @@ double fieldError(int order, bool swept, int field, double jitter, double rim)
     if (field != Mass)
       scene.state.record(pair, field) = massOf(q, curvature) / volume(q, Geometry::Axisymmetric);
   }
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   double worst = 0.0;
   for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
   {
@@ -96,7 +96,7 @@ TEST(RemapAxisymmetric, AxialDriftOfTwoRings_keepsConstantsAndVolumes)
   scene.paint({disc(1, {0.0, 0.45}, 0.27), rest(-1)}, one, one);
   scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.017}; });
   Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
   EXPECT_NEAR(after.mass, before.mass, 1e-15);
   EXPECT_NEAR(after.volume, before.volume, 1e-14);
@@ -125,7 +125,7 @@ TEST(RemapAxisymmetric, StreamThroughOpenEnds_staysFullAndBooksItsFlow)
   scene.setBoundaries({wall, wall, in, out});
   scene.paint({rest(0)}, one, one);
   scene.move([=](int, Vector2 const &) { return Vector2{0.0, speed}; });
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
   {
     double const whole = scene.mesh.cell_volume(result.pairs.cell(pair));
@@ -149,7 +149,7 @@ TEST(RemapAxisymmetric, EdgesThatCrossNextToANodeAlmostAtRest_leaveFiniteFields)
         [&](int, Vector2 const &x) {
           return std::fmod(8.0 * x[0] + 8.0 * x[1] + 0.5, 2.0) < 1.0 ? Vector2{faint, faint} : Vector2{-1e-18, -1e-18};
         });
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
       for (int field = 0; field < num_pair_fields; ++field)
         ASSERT_TRUE(std::isfinite(result.state.record(pair, field))) << faint << " " << pair << " " << field;
@@ -167,7 +167,7 @@ TEST(RemapAxisymmetric, UniformExpansionFromWalls_keepsItsForm)
       scene.aboutAxis();
     scene.paint({rest(0)}, one, one);
     scene.move([&](int, Vector2 const &x) { return c * x; });
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     double worst = 0.0;
     for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
       for (int d = 0; d < 2; ++d)
@@ -192,7 +192,7 @@ TEST(RemapAxisymmetric, TwoMaterialsInAnyMotion_keepMassEnergyAndAxialMomentum)
     scene.paint({disc(1, {0.0, 0.45}, 0.27), rest(0)}, wave, wave);
     scene.move(wobble);
     Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
     EXPECT_NEAR(after.mass, before.mass, 1e-14);
     EXPECT_NEAR(after.internal, before.internal, 1e-14);
@@ -219,7 +219,7 @@ TEST(RemapAxisymmetric, ContourHessians_keepTheirOrderAwayFromTheAxis)
     error[i] = 0.0;
     for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
       scene.state.record(pair, Mass) = massOf(movedCell(scene, pair), 1.0);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
     {
       Quadrilateral const q = cellQuadrilateral(scene.mesh, result.pairs.cell(pair));

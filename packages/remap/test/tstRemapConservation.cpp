@@ -30,7 +30,7 @@ Vector2 slip(int material, Vector2 const &x)
 
 void expectConserved(Scene &scene, int materials)
 {
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
   Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
   double const scale = std::sqrt(2.0 * before.mass * before.kinetic);
@@ -116,7 +116,7 @@ TEST(Conservation, massesThatDoNotMove_keepTheirBits)
   scene.paint({disc(0, {0.5, 0.5}, 0.3), halfPlane(1, {0.5, 0.5}, 0.2)}, wave, heat);
   scene.dt = 0.0;
   scene.move(slip);
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   ASSERT_EQ(result.pairs.num_pairs, scene.pairs.num_pairs);
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
     for (int f = 0; f < num_pair_fields; ++f)
@@ -162,7 +162,7 @@ Scene needle(double thickness, Vector2 const &corner, BoundaryKind kind)
 Vector2 expectKept(Scene &scene, int pairs, double thickness)
 {
   Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
   EXPECT_EQ(scene.report.failures, 0) << "thickness " << thickness;
   EXPECT_EQ(result.pairs.num_pairs, pairs);

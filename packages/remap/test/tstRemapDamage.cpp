@@ -21,8 +21,9 @@ double energy(int material, Vector2 const &)
 /// Damage 0.2 + 0.6 x, and failed_damage's 2 in a strip.
 void setDamage(Scene &scene)
 {
-  scene.state.tracks_damage = true;
-  scene.state.damage = View<double *>("damage", scene.pairs.num_pairs);
+  scene.device.state.tracks_damage = true;
+  scene.device.state.damage = View<double *>("damage", scene.pairs.num_pairs);
+  scene.state.damage = Kokkos::create_mirror_view(scene.device.state.damage);
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
   {
     double const x = (scene.pairs.cell(pair) % 24 + 0.5) / 24.0;
@@ -30,7 +31,7 @@ void setDamage(Scene &scene)
   }
 }
 
-double damageMass(CellMaterialPairs const &pairs, PairState const &state)
+double damageMass(PairsOnHost const &pairs, StateOnHost const &state)
 {
   double sum = 0.0;
   for (int pair = 0; pair < pairs.num_pairs; ++pair)
@@ -55,7 +56,7 @@ TEST(Damage, DiscsInVoid_keepTheMassOfTheirDamageAndItsBounds)
       setDamage(scene);
       scene.move([](int, Vector2 const &) { return Vector2{0.017, -0.011}; });
       double const before = damageMass(scene.pairs, scene.state);
-      RemapResult const result = scene.remapped();
+      ResultOnHost const result = scene.remapped();
       ASSERT_TRUE(result.state.tracks_damage);
       EXPECT_NEAR(damageMass(result.pairs, result.state), before, 1e-13 * before) << swept << order;
       for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
@@ -80,7 +81,7 @@ TEST(Damage, TrackedDamage_changesNoBitOfTheOtherFields)
         });
     return scene.remapped();
   };
-  RemapResult const with = run(true), without = run(false);
+  ResultOnHost const with = run(true), without = run(false);
   ASSERT_EQ(with.pairs.num_pairs, without.pairs.num_pairs);
   for (int pair = 0; pair < with.pairs.num_pairs; ++pair)
     for (int f = 0; f < num_pair_fields; ++f)

@@ -13,6 +13,27 @@ namespace
 
 using Field = std::function<double(Vector2 const &)>;
 
+/// Fields that the host sets and reads.
+struct FieldsOnHost
+{
+  CellFields on_device;
+  HostView<double **> value;
+
+  FieldsOnHost(int cells, std::size_t fields)
+      : on_device{View<double **>("fields", cells, fields)}, value(Kokkos::create_mirror_view(on_device.value))
+  {
+  }
+};
+
+int remapFields(MeshOnHost const &to, View<double *[2]> const &start, FieldsOnHost const &fields,
+                FieldsOnHost const &remapped, RemapOptions const &options, FieldWork &work)
+{
+  Kokkos::deep_copy(fields.on_device.value, fields.value);
+  int const failures = remapFields(to.on_device, start, fields.on_device, remapped.on_device, options, work);
+  Kokkos::deep_copy(remapped.value, remapped.on_device.value);
+  return failures;
+}
+
 double slope(Vector2 const &x)
 {
   return 2.0 + 3.0 * x[0] - 1.5 * x[1];
@@ -24,16 +45,16 @@ double sine(Vector2 const &x)
 }
 
 /// The regular mesh of n x n cells.
-Mesh regularMesh(int n)
+MeshOnHost regularMesh(int n)
 {
   return Scene(n, n, 0.0, twoLaws()).mesh;
 }
 
 /// The mesh of n x n cells with nodes shifted at random by up to `amount` cells, others than shiftedMesh's.
-Mesh startMesh(int n, double amount)
+MeshOnHost startMesh(int n, double amount)
 {
-  Mesh const regular = regularMesh(n);
-  Mesh mesh = shiftedMesh(regular, amount / n);
+  MeshOnHost const regular = regularMesh(n);
+  MeshOnHost mesh = shiftedMesh(regular, amount / n);
   for (int node = 0; node < mesh.num_nodes; ++node)
     for (int d = 0; d < 2; ++d)
       mesh.node_position(node, d) = 2.0 * regular.node_position(node, d) - mesh.node_position(node, d);
@@ -41,26 +62,26 @@ Mesh startMesh(int n, double amount)
   return mesh;
 }
 
-CellFields averages(Mesh const &mesh, std::vector<Field> const &fields)
+FieldsOnHost averages(MeshOnHost const &mesh, std::vector<Field> const &fields)
 {
-  CellFields out{View<double **>("fields", mesh.num_cells, fields.size())};
+  FieldsOnHost out(mesh.num_cells, fields.size());
   for (int cell = 0; cell < mesh.num_cells; ++cell)
     for (std::size_t f = 0; f < fields.size(); ++f)
       out.value(cell, f) = gaussAverage(cellQuadrilateral(mesh, cell), fields[f]);
   return out;
 }
 
-CellFields noiseIn(Mesh const &mesh, unsigned seed)
+FieldsOnHost noiseIn(MeshOnHost const &mesh, unsigned seed)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> value(1.0, 2.0);
-  CellFields out{View<double **>("fields", mesh.num_cells, 1)};
+  FieldsOnHost out(mesh.num_cells, 1);
   for (int cell = 0; cell < mesh.num_cells; ++cell)
     out.value(cell, 0) = value(random);
   return out;
 }
 
-double total(Mesh const &mesh, CellFields const &fields, int f)
+double total(MeshOnHost const &mesh, FieldsOnHost const &fields, int f)
 {
   double sum = 0.0;
   for (int cell = 0; cell < mesh.num_cells; ++cell)
@@ -69,7 +90,7 @@ double total(Mesh const &mesh, CellFields const &fields, int f)
 }
 
 /// Area-weighted mean of the absolute difference.
-double difference(Mesh const &mesh, CellFields const &a, CellFields const &b, int f)
+double difference(MeshOnHost const &mesh, FieldsOnHost const &a, FieldsOnHost const &b, int f)
 {
   double sum = 0.0;
   for (int cell = 0; cell < mesh.num_cells; ++cell)
@@ -77,12 +98,12 @@ double difference(Mesh const &mesh, CellFields const &a, CellFields const &b, in
   return sum;
 }
 
-CellFields remapped(Mesh const &from, Mesh const &to, CellFields const &fields, RemapOptions const &options,
-                    int failures = 0)
+FieldsOnHost remapped(MeshOnHost const &from, MeshOnHost const &to, FieldsOnHost const &fields,
+                      RemapOptions const &options, int failures = 0)
 {
-  CellFields out{View<double **>("remapped", to.num_cells, fields.value.extent(1))};
+  FieldsOnHost out(to.num_cells, fields.value.extent(1));
   FieldWork work;
-  EXPECT_EQ(remapFields(to, from.node_position, fields, out, options, work), failures);
+  EXPECT_EQ(remapFields(to, from.on_device.node_position, fields, out, options, work), failures);
   return out;
 }
 
@@ -106,7 +127,7 @@ struct Extent
   }
 };
 
-void joinDonor(Mesh const &mesh, CellFields const &fields, int donor, bool mirrors, Extent &extent)
+void joinDonor(MeshOnHost const &mesh, FieldsOnHost const &fields, int donor, bool mirrors, Extent &extent)
 {
   double const q = fields.value(donor, 0);
   extent.join(q);
@@ -119,7 +140,7 @@ void joinDonor(Mesh const &mesh, CellFields const &fields, int donor, bool mirro
 
 /// The cell and its vertex neighbours are the donors; their neighbours bound them, at the boundary of the mesh the
 /// mirrored values of the cells opposite too.
-Extent extentOfDonors(Mesh const &mesh, CellFields const &fields, int cell, bool mirrors)
+Extent extentOfDonors(MeshOnHost const &mesh, FieldsOnHost const &fields, int cell, bool mirrors)
 {
   Extent extent;
   joinDonor(mesh, fields, cell, mirrors, extent);
@@ -132,13 +153,13 @@ Extent extentOfDonors(Mesh const &mesh, CellFields const &fields, int cell, bool
 
 TEST(Fields, constantAndLinearOnesOnRandomMeshes_areExact)
 {
-  Mesh const from = startMesh(20, 0.3), to = shiftedMesh(regularMesh(20), 0.3 / 20);
+  MeshOnHost const from = startMesh(20, 0.3), to = shiftedMesh(regularMesh(20), 0.3 / 20);
   std::vector<Field> const fields = {[](Vector2 const &) { return 7.0; }, slope};
-  CellFields const exact = averages(to, fields);
-  CellFields const constant = remapped(from, to, averages(from, fields), optionsOf(1, RemapLimiter::Range));
+  FieldsOnHost const exact = averages(to, fields);
+  FieldsOnHost const constant = remapped(from, to, averages(from, fields), optionsOf(1, RemapLimiter::Range));
   EXPECT_LT(difference(to, constant, exact, 0), 1e-14);
   EXPECT_GT(difference(to, constant, exact, 1), 1e-3);
-  CellFields const linear = remapped(from, to, averages(from, fields), optionsOf(2, RemapLimiter::None));
+  FieldsOnHost const linear = remapped(from, to, averages(from, fields), optionsOf(2, RemapLimiter::None));
   EXPECT_LT(difference(to, linear, exact, 0), 1e-14);
   EXPECT_LT(difference(to, linear, exact, 1), 1e-14);
 }
@@ -150,10 +171,10 @@ TEST(Fields, randomOnesOnRandomMeshes_stayInRangeAndKeepTheirSum)
     double beyond = 0.0; // without limiter
     for (unsigned seed = 1; seed <= 10; ++seed)
     {
-      Mesh const from = startMesh(16, 0.03 * seed), to = shiftedMesh(regularMesh(16), 0.03 * seed / 16);
-      CellFields const before = noiseIn(from, seed);
-      CellFields const after = remapped(from, to, before, optionsOf(2, limiter));
-      CellFields const free = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
+      MeshOnHost const from = startMesh(16, 0.03 * seed), to = shiftedMesh(regularMesh(16), 0.03 * seed / 16);
+      FieldsOnHost const before = noiseIn(from, seed);
+      FieldsOnHost const after = remapped(from, to, before, optionsOf(2, limiter));
+      FieldsOnHost const free = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
       EXPECT_NEAR(total(to, after, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
       EXPECT_NEAR(total(to, free, 0), total(from, before, 0), 1e-14 * total(from, before, 0));
       for (int cell = 0; cell < to.num_cells; ++cell)
@@ -173,8 +194,8 @@ TEST(Fields, smoothOnesOnRandomMeshes_areOfSecondOrder)
   double last = 0.0;
   for (int n : {16, 32, 64})
   {
-    Mesh const from = startMesh(n, 0.25), to = shiftedMesh(regularMesh(n), 0.25 / n);
-    CellFields const after = remapped(from, to, averages(from, {sine}), optionsOf(2, RemapLimiter::RangeInside));
+    MeshOnHost const from = startMesh(n, 0.25), to = shiftedMesh(regularMesh(n), 0.25 / n);
+    FieldsOnHost const after = remapped(from, to, averages(from, {sine}), optionsOf(2, RemapLimiter::RangeInside));
     double const error = difference(to, after, averages(to, {sine}), 0);
     if (n > 16)
     {
@@ -191,20 +212,21 @@ TEST(Fields, andTheRemapOfTheCycle_agreeToRoundOff)
   Scene scene = regularToRandom(n, 0.25, sine);
   scene.options.swept_faces = false;
   View<double *[2]> const start("start", scene.mesh.num_nodes);
-  CellFields const before{View<double **>("before", scene.mesh.num_cells, 1)};
-  CellFields const after{View<double **>("after", scene.mesh.num_cells, 1)};
+  auto const position = Kokkos::create_mirror_view(start);
+  FieldsOnHost const before(scene.mesh.num_cells, 1), after(scene.mesh.num_cells, 1);
   for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
   {
     Quadrilateral const moved = movedCell(scene, cell);
     before.value(cell, 0) = scene.state.record(cell, Mass) / area(moved);
     for (int k = 0; k < 4; ++k)
       for (int d = 0; d < 2; ++d)
-        start(scene.mesh.cell_node(cell, k), d) = moved[k][d];
+        position(scene.mesh.cell_node(cell, k), d) = moved[k][d];
   }
+  Kokkos::deep_copy(start, position);
   for (RemapLimiter limiter : {RemapLimiter::Range, RemapLimiter::RangeInside, RemapLimiter::None})
   {
     scene.options.limiter = limiter;
-    RemapResult const whole = scene.remapped();
+    ResultOnHost const whole = scene.remapped();
     FieldWork work;
     EXPECT_EQ(remapFields(scene.mesh, start, before, after, scene.options, work), 0);
     for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
@@ -214,10 +236,10 @@ TEST(Fields, andTheRemapOfTheCycle_agreeToRoundOff)
 
 TEST(Fields, oneByOneOrTogether_haveTheSameBits)
 {
-  Mesh const from = startMesh(15, 0.2), to = shiftedMesh(regularMesh(15), 0.2 / 15);
-  CellFields const together =
+  MeshOnHost const from = startMesh(15, 0.2), to = shiftedMesh(regularMesh(15), 0.2 / 15);
+  FieldsOnHost const together =
       remapped(from, to, averages(from, {slope, sine, slope}), optionsOf(2, RemapLimiter::Range));
-  CellFields const alone = remapped(from, to, averages(from, {sine}), optionsOf(2, RemapLimiter::Range));
+  FieldsOnHost const alone = remapped(from, to, averages(from, {sine}), optionsOf(2, RemapLimiter::Range));
   for (int cell = 0; cell < to.num_cells; ++cell)
   {
     EXPECT_EQ(together.value(cell, 1), alone.value(cell, 0));
@@ -230,8 +252,8 @@ TEST(Fields, donorsThatAreBent_areCutExactly)
   // Every other inner node is drawn over a diagonal: the rest of that cell is concave, and the target's sides there,
   // nearly straight, cut off both of its tips.
   int const n = 8;
-  Mesh const regular = regularMesh(n);
-  Mesh to = shiftedMesh(regular, 0.0), from = shiftedMesh(regular, 0.0);
+  MeshOnHost const regular = regularMesh(n);
+  MeshOnHost to = shiftedMesh(regular, 0.0), from = shiftedMesh(regular, 0.0);
   for (int node = 0; node < to.num_nodes; ++node)
   {
     double const i = std::round(n * to.node_position(node, 0)), j = std::round(n * to.node_position(node, 1));
@@ -246,31 +268,32 @@ TEST(Fields, donorsThatAreBent_areCutExactly)
   }
   updateGeometry(to);
   updateGeometry(from);
-  CellFields const before = averages(from, {slope});
-  CellFields const after = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
+  FieldsOnHost const before = averages(from, {slope});
+  FieldsOnHost const after = remapped(from, to, before, optionsOf(2, RemapLimiter::None));
   EXPECT_NEAR(total(to, after, 0), total(from, before, 0), 1e-14);
   EXPECT_LT(difference(to, after, averages(to, {slope}), 0), 1e-14);
 }
 
 TEST(Fields, nodesThatLeaveTheCellsAround_areReported)
 {
-  Mesh const to = regularMesh(8);
-  Mesh const from = shiftedMesh(to, 0.0);
+  MeshOnHost const to = regularMesh(8);
+  MeshOnHost const from = shiftedMesh(to, 0.0);
   int const node = to.cell_node(27, 2);
   from.node_position(node, 0) += 1.3 / 8.0;
-  CellFields const before = averages(to, {slope});
-  CellFields const after{View<double **>("after", to.num_cells, 1)};
+  Kokkos::deep_copy(from.on_device.node_position, from.node_position);
+  FieldsOnHost const before = averages(to, {slope});
+  FieldsOnHost const after(to.num_cells, 1);
   FieldWork work;
-  EXPECT_GT(remapFields(to, from.node_position, before, after, optionsOf(1, RemapLimiter::Range), work), 0);
+  EXPECT_GT(remapFields(to, from.on_device.node_position, before, after, optionsOf(1, RemapLimiter::Range), work), 0);
 }
 
 TEST(Fields, whatTheyCannotDo_isRefused)
 {
-  Mesh const mesh = regularMesh(4);
-  CellFields const a = averages(mesh, {slope}), b = averages(mesh, {slope});
+  MeshOnHost const mesh = regularMesh(4);
+  FieldsOnHost const a = averages(mesh, {slope}), b = averages(mesh, {slope});
   FieldWork work;
-  auto const run = [&](int order, RemapLimiter limiter, CellFields const &out)
-  { remapFields(mesh, mesh.node_position, a, out, optionsOf(order, limiter), work); };
+  auto const run = [&](int order, RemapLimiter limiter, FieldsOnHost const &out)
+  { remapFields(mesh, mesh.on_device.node_position, a, out, optionsOf(order, limiter), work); };
   EXPECT_THROW(run(3, RemapLimiter::Range, b), std::runtime_error);
   EXPECT_THROW(run(2, RemapLimiter::VanLeer, b), std::runtime_error);
   EXPECT_THROW(run(2, RemapLimiter::Range, a), std::runtime_error);

@@ -30,7 +30,7 @@ Material yielding()
 struct Numbered
 {
   Scene scene;
-  RemapResult result;
+  ResultOnHost result;
 
   Numbered(int nx, int ny, std::vector<int> const &order, std::vector<int> const &turn, RemapLimiter limiter)
       : scene(nx, ny, 0.2, {yielding()})

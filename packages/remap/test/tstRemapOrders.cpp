@@ -28,7 +28,7 @@ RemapOptions optionsOf(int order, bool swept, RemapLimiter limiter)
 /// Sum over the cells of area times |remapped - exact density| of the sine.
 double densityError(Scene &scene)
 {
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   double sum = 0.0;
   for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
     sum += std::fabs(result.state.record(cell, Mass) -
@@ -55,7 +55,7 @@ double energyError(int n, RemapOptions const &options)
     scene.state.record(cell, InternalEnergy) = gaussAverage(q, product) / gaussAverage(q, wave);
   }
   scene.options = options;
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   double sum = 0.0;
   for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
   {
@@ -90,7 +90,7 @@ double overshoot(RemapOptions const &options)
         scene.state.record(cell, f) = uniform(random);
     }
     scene.options = options;
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
     {
       double const density = result.state.record(cell, Mass) / scene.mesh.cell_area(cell);
@@ -125,7 +125,7 @@ TEST(RandomMesh, linearDensity_isRemappedExactlyWithoutLimiterByBothStages)
     auto const linear = [](Vector2 const &x) { return 2.0 + x[0] - 0.5 * x[1]; };
     Scene scene = regularToRandom(12, 0.25, linear);
     scene.options = optionsOf(2, swept, RemapLimiter::None);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
     {
       Quadrilateral const q = cellQuadrilateral(scene.mesh, cell);
@@ -159,7 +159,7 @@ TEST(RandomMesh, whatAContactWallPushesBack_staysWithinTheRangeToo)
           return Vector2{from_wall == 0.0 ? 0.4 / 12.0 : from_wall == 1.0 ? -0.4 / 12.0 : 0.0, 0.0};
         });
     scene.options = optionsOf(order, false, RemapLimiter::Range);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     EXPECT_EQ(scene.report.failures, 0);
     for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
     {
@@ -215,7 +215,7 @@ TEST(ThirdOrder, quadraticDensity_isRemappedExactlyFromARandomMesh)
   {
     Scene scene = randomToRegular(n, 0.25, quadratic);
     scene.options = optionsOf(3, swept, RemapLimiter::None);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
     {
       Quadrilateral const q = cellQuadrilateral(scene.mesh, cell);
@@ -286,7 +286,7 @@ void expectConservationWithinRange(bool swept)
     low[m] = std::min(low[m], scene.state.record(pair, InternalEnergy));
     high[m] = std::max(high[m], scene.state.record(pair, InternalEnergy));
   }
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   EXPECT_EQ(scene.report.failures, 0);
   for (int m : {0, 1})
   {

@@ -179,10 +179,10 @@ TEST(Overlap, measured_changesNoBit)
   Scene scene(24, 20, 0.2, twoLaws());
   scene.paint({disc(0, {0.45, 0.5}, 0.27), halfPlane(2, {0.5, 0.5}, 0.3), rest(1)}, wave, wave);
   scene.move(slip);
-  RemapResult const without = scene.remapped();
+  ResultOnHost const without = scene.remapped();
   EXPECT_EQ(scene.report.moved_overlap.volume, 0.0);
   scene.options.measure_overlap = true;
-  RemapResult const with = scene.remapped();
+  ResultOnHost const with = scene.remapped();
   EXPECT_GT(scene.report.moved_overlap.volume, scene.report.overlap_volume);
   EXPECT_EQ(differences(scene, with, without), 0);
 }
@@ -235,7 +235,7 @@ TEST(PartedRegions, squaresThatPassEachOther_keepTheirMass_andShareNothing)
   for (bool const parts : {false, true})
   {
     scene.options.part_overlaps = parts;
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     EXPECT_NEAR(scene.report.moved_overlap.volume, shared, 1e-16);
     EXPECT_NEAR(scene.report.remapped_overlap.volume, parts ? 0.0 : shared, 1e-16);
     for (int m = 0; m < 2; ++m)
@@ -296,7 +296,7 @@ TEST(PartedRegions, ofADiscThatTurnsInABlock_conserveAll)
             return material == 0 ? 0.08 * perpendicular(x - Vector2{0.5, 0.5}) : Vector2{0.0, 0.0};
           });
       scene = flowed(scene);
-      RemapResult const result = scene.remapped();
+      ResultOnHost const result = scene.remapped();
       EXPECT_GT(scene.report.moved_overlap.volume, 1e-4);
       EXPECT_LT(scene.report.remapped_overlap.volume, 0.1 * scene.report.moved_overlap.volume);
       EXPECT_EQ(scene.report.failures, 0);

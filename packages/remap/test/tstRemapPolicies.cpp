@@ -35,12 +35,12 @@ Scene bodyBesideGas(double by, double sound_speed = 0.0)
 }
 
 /// Of the pair of a cell, after a remap.
-double fieldOf(RemapResult const &result, int cell, int material, PairField field)
+double fieldOf(ResultOnHost const &result, int cell, int material, PairField field)
 {
   return result.state.record(result.pairs.find(cell, material), field);
 }
 
-double leastFraction(RemapResult const &result)
+double leastFraction(ResultOnHost const &result)
 {
   double least = 1.0;
   for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
@@ -72,7 +72,7 @@ TEST(Policies, sliverOf1e10_survivesWithoutMerging)
   Scene scene = barWithSliver(0.0);
   scene.options.merge_below = 0.0;
   scene.move([](int, Vector2 const &) { return Vector2{1e-11, 0.0}; });
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   EXPECT_NEAR(leastFraction(result), 1e-10, 1e-15);
   EXPECT_EQ(result.pairs.num_pairs, 4);
   Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
@@ -89,7 +89,7 @@ TEST(Policies, specificVolumeThatRanAway_isBoundedByTheCell)
       if (scene.pairs.cell(pair) == 5)
         scene.state.record(pair, SpecificVolume) *= excess;
     scene.move([](int, Vector2 const &) { return Vector2{0.01, 0.0}; });
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
     EXPECT_NEAR(t.mass, 0.32, 1e-15);
     EXPECT_NEAR(t.internal, 0.32, 1e-15);
@@ -106,7 +106,7 @@ TEST(Policies, fragmentBelowThreshold_mergesWithoutLoss)
 {
   Scene scene = barWithSliver(0.0);
   scene.move([](int, Vector2 const &) { return Vector2{1e-8, 0.0}; });
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   EXPECT_EQ(scene.report.merged, 1);
   EXPECT_EQ(result.pairs.num_pairs, 3);
   Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
@@ -122,7 +122,7 @@ TEST(Policies, fragmentWithoutNeighbour_isKept)
   freeSides(scene);
   scene.paint({halfPlane(0, {1e-5, 0.0}, Math::pi / 4.0)}, one, one);
   scene.move([](int, Vector2 const &) { return Vector2{0.01, 0.01}; });
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   ASSERT_EQ(result.pairs.num_pairs, 1);
   EXPECT_EQ(scene.report.merged, 0);
   EXPECT_NEAR(result.state.record(0, Mass), scene.state.record(0, Mass), 1e-22);
@@ -136,7 +136,7 @@ TEST(Policies, overlappingMaterials_areScaledAndBooked)
       [](int material, Vector2 const &x) {
         return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{0.02, 0.0} : Vector2{0.0, 0.0};
       });
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   EXPECT_NEAR(scene.report.overlap_volume, 0.02, 1e-14);
   EXPECT_NEAR(largestSumOfFractions(scene.mesh, result), 1.0, 1e-15);
   Totals const t = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
@@ -155,7 +155,7 @@ TEST(Policies, spuriousGap_isClosedWhenSmallAndBookedWhenLarge)
         [=](int material, Vector2 const &x) {
           return x[0] > 0.0 && x[0] < 1.0 && material == 0 ? Vector2{-gap, 0.0} : Vector2{0.0, 0.0};
         });
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     bool const small = gap < 1e-3;
     EXPECT_NEAR(scene.report.closed_volume, small ? gap : 0.0, 1e-14);
     EXPECT_NEAR(scene.report.void_volume, small ? 0.0 : gap, 1e-14);
@@ -170,7 +170,7 @@ TEST(Policies, gas_takesWhatABodyLeavesOrWants)
   {
     Scene scene = bodyBesideGas(by);
     double const before = scene.state.record(scene.pairs.find(1, 1), SpecificVolume);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     double const taken = std::copysign(std::max(std::fabs(by) - shared, 0.0), -by);
     double const rest = cell / (cell + by + taken), grown = (half + taken) / half; // rest: what all share
     EXPECT_NEAR(fieldOf(result, 1, 0, VolumeFraction), rest * (half + by) / cell, 1e-14) << by;
@@ -192,14 +192,14 @@ TEST(Policies, gas_takesNoMoreThanATenthOfIt)
 {
   Scene opened = bodyBesideGas(-1e-3);
   opened.options.close_void_beside_gas = 3e-3; // 7.5e-4 of the volume
-  RemapResult const result = opened.remapped();
+  ResultOnHost const result = opened.remapped();
   EXPECT_EQ(opened.report.closed_volume, 0.0);
   EXPECT_NEAR(opened.report.void_volume, 1e-3, 1e-14);
   EXPECT_NEAR(fieldOf(result, 1, 1, VolumeFraction), 0.5, 1e-14);
 
   Scene pressed = bodyBesideGas(0.02);
   double const before = pressed.state.record(pressed.pairs.find(1, 1), SpecificVolume);
-  RemapResult const squeezed = pressed.remapped();
+  ResultOnHost const squeezed = pressed.remapped();
   EXPECT_NEAR(fieldOf(squeezed, 1, 1, SpecificVolume), 0.9 * before, 1e-14);
   EXPECT_NEAR(largestSumOfFractions(pressed.mesh, squeezed), 1.0, 1e-15);
   EXPECT_NEAR(fieldOf(squeezed, 1, 1, VolumeFraction), 0.5 * 0.9 / (1.0 + 0.08 - 0.05), 1e-14);
@@ -223,7 +223,7 @@ CoolingCell cooled(double energy, double cool_gas_below, double start_energy, do
   for (int cell = 2; cell < 4; ++cell)
     scene.state.record(scene.pairs.find(cell, 1), InternalEnergy) = around;
   scene.state.record(scene.pairs.find(1, 1), InternalEnergy) = energy;
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   double of_cell = 0.0;
   for (int pair = result.pairs.offset(1); pair < result.pairs.offset(2); ++pair)
     of_cell += result.state.record(pair, Mass) * result.state.record(pair, InternalEnergy);
@@ -267,7 +267,7 @@ TEST(Policies, gasThatIsNotAskedTo_takesNothing)
     Scene scene = bodyBesideGas(by);
     scene.options.close_void_beside_gas = 0.0;
     double const before = scene.state.record(scene.pairs.find(1, 1), SpecificVolume);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     EXPECT_EQ(fieldOf(result, 1, 1, SpecificVolume), before);
     EXPECT_EQ(scene.report.closed_volume, 0.0);
   }
@@ -279,7 +279,7 @@ TEST(Policies, liquid_keepsItsDensity)
   {
     Scene scene = bodyBesideGas(by, 1500.0);
     double const before = scene.state.record(scene.pairs.find(1, 1), SpecificVolume);
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     EXPECT_EQ(fieldOf(result, 1, 1, SpecificVolume), before);
     EXPECT_EQ(scene.report.closed_volume, 0.0);
   }
@@ -289,7 +289,7 @@ TEST(Policies, rigidBody_takesItsExactVolumeAndPushesNothingOut)
 {
   Scene scene = sceneWithRigidBody(one);
   scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   EXPECT_NEAR(scene.report.overlap_volume, 0.01, 1e-14);
   EXPECT_LE(largestSumOfFractions(scene.mesh, result), 1.0 + 1e-15);
   EXPECT_NEAR(totals(scene.mesh, result.pairs, result.state.record, result.state.velocity, 0).mass, 0.4, 1e-15);
@@ -309,7 +309,7 @@ TEST(Policies, splinterInACellThatARigidBodyCovers_isKeptWithinTheCell)
         [=](int material, Vector2 const &x) {
           return Vector2{material == 0 && x[0] > 0.1 ? 0.1 + 0.25 * part : 0.0, 0.0};
         });
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     EXPECT_LE(largestSumOfFractions(scene.mesh, result), 1.0);
     for (int row = 0; row < 4; ++row)
     {
@@ -324,7 +324,7 @@ TEST(Policies, emptiedCell_losesItsPairAndDofNodes)
 {
   Scene scene = barWithSliver(0.005);
   scene.move([](int, Vector2 const &) { return Vector2{-0.02, 0.0}; });
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   EXPECT_EQ(result.pairs.cell_kind(5), VoidCell);
   EXPECT_EQ(result.pairs.cell_kind(3), PureCell);
   EXPECT_EQ(result.pairs.cell_kind(1), MixedCell);
@@ -345,7 +345,7 @@ TEST(Policies, fragmentBesideAnOutflow_leavesInOneStep)
       scene.paint({halfPlane(-1, {0.97, 0.5}, 0.0), rest(0)}, one, one);
       scene.options.order = order;
       scene.move([step](int, Vector2 const &) { return Vector2{step, 0.0}; });
-      RemapResult const result = scene.remapped();
+      ResultOnHost const result = scene.remapped();
       double const gone = std::min(step, 0.03);
       EXPECT_EQ(result.pairs.num_pairs, gone < 0.03 ? 1 : 0);
       EXPECT_NEAR(scene.report.outflow_mass, gone, 1e-15) << "order " << order << ", step " << step;
@@ -369,17 +369,17 @@ TEST(Policies, bodiesAlongCurvedSlipWalls_slideAlongThemAndKeepTheirMass)
   double const turn = 0.03;
   scene.move([&](int, Vector2 const &x) { return turn * perpendicular(x); });
   Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
   EXPECT_EQ(scene.report.failures, 0);
   EXPECT_NEAR(after.mass, before.mass, 1e-15);
   EXPECT_NEAR(after.internal, before.internal, 1e-15);
   // Had the walls' nodes been fixed, they would stand still: a fifth of the speed at a wall's cells.
   double worst = 0.0;
-  auto const node = onHost(result.dof_nodes.node);
   for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
   {
-    Vector2 const x{scene.mesh.node_position(node(dof), 0), scene.mesh.node_position(node(dof), 1)};
+    int const node = result.dof_nodes.node(dof);
+    Vector2 const x{scene.mesh.node_position(node, 0), scene.mesh.node_position(node, 1)};
     Vector2 const v{result.state.velocity(dof, 0), result.state.velocity(dof, 1)};
     worst = std::max(worst, norm(v - turn * perpendicular(x)) / turn);
   }

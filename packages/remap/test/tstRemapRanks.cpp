@@ -40,7 +40,7 @@ TEST(Ranks, ownedCellsOfAPart_holdTheBitsOfTheWhole)
   for (auto const &layer : layers)
   {
     Scene whole = makeScene(layer, {}, 0);
-    RemapResult const all = whole.remapped();
+    ResultOnHost const all = whole.remapped();
     for (int column : {8, 11, 15})
       for (int halo : {3, 5})
       {
@@ -48,7 +48,7 @@ TEST(Ranks, ownedCellsOfAPart_holdTheBitsOfTheWhole)
         for (int cell = 0; cell < 24 * 20; ++cell)
           owner[cell] = cell % 24 < column + (cell / 24) % 3 ? 0 : 1;
         Scene part = makeScene(layer, owner, halo);
-        RemapResult const result = part.remapped();
+        ResultOnHost const result = part.remapped();
         long long const n = differences(part, result, all);
         std::printf("halo %d: %lld values differ\n", halo, n);
         if (halo == 5)
@@ -64,7 +64,7 @@ TEST(Ranks, ownedCellsOfAPart_holdTheBitsOfTheWholeInThirdOrder)
   std::vector<Layer> const layers = {disc(0, {0.45, 0.5}, 0.2), rest(1)};
   for (bool about_axis : {false, true})
   {
-    RemapResult const all = makeScene(layers, {}, 0, 3, about_axis).remapped();
+    ResultOnHost const all = makeScene(layers, {}, 0, 3, about_axis).remapped();
     std::vector<int> owner(24 * 20);
     for (int cell = 0; cell < 24 * 20; ++cell)
       owner[cell] = cell % 24 < 11 + (cell / 24) % 3 ? 0 : 1;
@@ -79,7 +79,7 @@ TEST(Ranks, ownedCellsOfAPureBodyCutAcrossItsNumbers_holdTheBitsOfTheWhole)
   for (bool about_axis : {false, true})
     for (int order : {1, 2, 3})
     {
-      RemapResult const all = makeScene({rest(0)}, {}, 0, order, about_axis).remapped();
+      ResultOnHost const all = makeScene({rest(0)}, {}, 0, order, about_axis).remapped();
       for (int low : {0, 1})
       {
         std::vector<int> owner(24 * 20);

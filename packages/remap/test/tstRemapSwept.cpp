@@ -98,7 +98,7 @@ double errorOfEnergy(int cells)
     Vector2 const after = massAndHeat(here);
     exact[pair] = after[1] / after[0];
   }
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
   {
     int const cell = scene.pairs.cell(pair), i = cell % cells, j = cell / cells;
@@ -132,7 +132,7 @@ void expectNoiseToStaySmall(std::vector<Layer> const &layers, int order, std::ve
             });
         return scene.remapped();
       };
-      RemapResult const quiet = remapped(0.0), noisy = remapped(across);
+      ResultOnHost const quiet = remapped(0.0), noisy = remapped(across);
       ASSERT_EQ(quiet.pairs.num_pairs, noisy.pairs.num_pairs);
       for (int pair = 0; pair < quiet.pairs.num_pairs; ++pair)
         for (int f = 0; f < num_pair_fields; ++f)
@@ -170,7 +170,7 @@ TEST(Swept, steepDensity_pureCellsKeepTheirVolume)
         ring = moments<1>(q, q[0], areaWeight(Geometry::Axisymmetric, q[0])).volume();
         scene.state.record(pair, SpecificVolume) = (about_axis ? ring : area) / scene.state.record(pair, Mass);
       }
-      RemapResult const result = scene.remapped();
+      ResultOnHost const result = scene.remapped();
       for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
         EXPECT_NEAR(result.state.record(pair, Mass) * result.state.record(pair, SpecificVolume) /
                         scene.mesh.cell_volume(pair),
@@ -190,7 +190,7 @@ TEST(Swept, returnedKineticEnergy_atFirstOrder_isNeverNegative)
     scene.options.return_kinetic_defect = true;
     scene.paint({rest(0)}, steepDensity, [](int, Vector2 const &) { return 0.0; });
     scene.move([](int m, Vector2 const &x) { return Vector2{0.02, 0.01} + randomVelocity(m, x); });
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     double least = 0.0, largest = 0.0;
     for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
     {

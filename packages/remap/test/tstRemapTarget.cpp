@@ -18,15 +18,13 @@ Vector2 slip(int material, Vector2 const &x)
 std::vector<std::vector<Layer>> const layouts = {
     {rest(0)}, {disc(0, {0.45, 0.5}, 0.3)}, {disc(0, {0.45, 0.5}, 0.27), halfPlane(2, {0.5, 0.5}, 0.3), rest(1)}};
 
-RemapResult remapTo(Scene &scene, Mesh const &target, RemapWork &work)
+ResultOnHost remapTo(Scene &scene, MeshOnHost const &target, RemapWork &work)
 {
   scene.report = RemapReport{};
-  return remap(target, scene.kinematics, scene.pairs, scene.dof_nodes, scene.state, scene.regions, scene.conditions,
-               scene.materials, scene.half, scene.dt, scene.rigid, scene.options, scene.report, work,
-               scene.mesh.node_position);
+  return scene.remapped(target.on_device, scene.report, work, scene.mesh.on_device.node_position);
 }
 
-RemapResult remapTo(Scene &scene, Mesh const &target)
+ResultOnHost remapTo(Scene &scene, MeshOnHost const &target)
 {
   RemapWork work;
   return remapTo(scene, target, work);
@@ -54,7 +52,7 @@ TEST(Target, thatIsTheStartMesh_givesTheBitsOfThePlainRemap)
     for (bool intersect : {false, true})
     {
       Scene scene = makeScene(layers, intersect);
-      RemapResult const plain = scene.remapped();
+      ResultOnHost const plain = scene.remapped();
       EXPECT_EQ(differences(scene, remapTo(scene, shiftedMesh(scene.mesh, 0.0)), plain), 0);
     }
 }
@@ -65,8 +63,8 @@ TEST(Target, ofRandomNodes_keepsMassMomentumAndEnergyOfEveryMaterial)
     for (bool intersect : {false, true})
     {
       Scene scene = makeScene(layers, intersect);
-      Mesh const target = shiftedMesh(scene.mesh, 0.009);
-      RemapResult const result = remapTo(scene, target);
+      MeshOnHost const target = shiftedMesh(scene.mesh, 0.009);
+      ResultOnHost const result = remapTo(scene, target);
       EXPECT_EQ(scene.report.failures, 0);
       for (int material : {0, 1, 2})
       {
@@ -96,8 +94,8 @@ TEST(Target, ofRandomNodesAboutAnAxis_keepsMassAndAxialMomentumAndUniformVelocit
           scene.options.merge_below = 1e-6; // slivers' velocities have the digits of their masses
           scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.003}; });
         }
-        Mesh const target = shiftedMesh(scene.mesh, 0.009);
-        RemapResult const result = remapTo(scene, target);
+        MeshOnHost const target = shiftedMesh(scene.mesh, 0.009);
+        ResultOnHost const result = remapTo(scene, target);
         Totals const a = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
         Totals const b = totals(target, result.pairs, result.state.record, result.state.velocity);
         EXPECT_NEAR(b.mass, a.mass, 1e-14);
@@ -122,13 +120,13 @@ TEST(Target, thatMovesWithTheMaterial_leavesTheCellsAsTheyAre)
     {
       Scene scene = makeScene(layers, intersect);
       scene.move([](int, Vector2 const &x) { return slip(0, x); });
-      Mesh target = shiftedMesh(scene.mesh, 0.0);
+      MeshOnHost target = shiftedMesh(scene.mesh, 0.0);
       for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
         for (int d = 0; d < 2; ++d)
           target.node_position(scene.dof_nodes.node(dof), d) =
               scene.mesh.node_position(scene.dof_nodes.node(dof), d) + scene.dt * scene.half(dof, d);
       updateGeometry(target);
-      RemapResult const result = remapTo(scene, target);
+      ResultOnHost const result = remapTo(scene, target);
       EXPECT_EQ(scene.report.failures, 0);
       ASSERT_EQ(result.pairs.num_pairs, scene.pairs.num_pairs);
       for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
@@ -155,8 +153,8 @@ TEST(Target, ofRandomNodes_uniformStateStaysUniformAndFillsTheCells)
     auto const one = [](int, Vector2 const &) { return 1.0; };
     scene.paint({disc(0, {0.45, 0.5}, 0.3), rest(1)}, one, one);
     scene.move([](int, Vector2 const &) { return Vector2{0.0, 0.0}; });
-    Mesh const target = shiftedMesh(scene.mesh, 0.009);
-    RemapResult const result = remapTo(scene, target);
+    MeshOnHost const target = shiftedMesh(scene.mesh, 0.009);
+    ResultOnHost const result = remapTo(scene, target);
     for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
     {
       double const volume = result.state.record(pair, VolumeFraction) * target.cell_area(result.pairs.cell(pair));
@@ -170,15 +168,13 @@ TEST(Target, ofRandomNodes_uniformStateStaysUniformAndFillsTheCells)
 TEST(Target, keptWork_servesMovingMeshesAndTheStartMeshInTurn)
 {
   Scene scene = makeScene(layouts[2], false);
-  Mesh const target = shiftedMesh(scene.mesh, 0.009);
+  MeshOnHost const target = shiftedMesh(scene.mesh, 0.009);
   RemapWork work;
   RemapReport report;
   for (int i = 0; i < 2; ++i)
   {
     EXPECT_EQ(differences(scene, remapTo(scene, target, work), remapTo(scene, target)), 0);
-    RemapResult const home =
-        remap(scene.mesh, scene.kinematics, scene.pairs, scene.dof_nodes, scene.state, scene.regions, scene.conditions,
-              scene.materials, scene.half, scene.dt, scene.rigid, scene.options, report, work);
+    ResultOnHost const home = scene.remapped(scene.mesh.on_device, report, work);
     EXPECT_EQ(differences(scene, home, scene.remapped()), 0);
   }
 }
@@ -186,15 +182,17 @@ TEST(Target, keptWork_servesMovingMeshesAndTheStartMeshInTurn)
 TEST(Target, withANodeOffItsWall_isRefused)
 {
   Scene scene = makeScene(layouts[0], false);
-  Mesh const target = shiftedMesh(scene.mesh, 0.0);
+  MeshOnHost const target = shiftedMesh(scene.mesh, 0.0);
   target.node_position(3, 1) = 0.01;
+  Kokkos::deep_copy(target.on_device.node_position, target.node_position);
   EXPECT_THROW(remapTo(scene, target), std::runtime_error);
   Scene open = makeScene(layouts[0], false);
   Boundary outflow;
   outflow.kind = BoundaryKind::Outflow;
   open.setBoundaries(std::vector<Boundary>(4, outflow));
-  Mesh const sliding = shiftedMesh(open.mesh, 0.0);
+  MeshOnHost const sliding = shiftedMesh(open.mesh, 0.0);
   sliding.node_position(3, 0) += 0.001;
+  Kokkos::deep_copy(sliding.on_device.node_position, sliding.node_position);
   EXPECT_THROW(remapTo(open, sliding), std::runtime_error);
 }
 
@@ -203,7 +201,7 @@ TEST(Target, onPartOfTheMesh_givesTheBitsOfTheWhole)
   for (auto const &layers : layouts)
   {
     Scene whole = makeScene(layers, false);
-    RemapResult const all = remapTo(whole, shiftedMesh(whole.mesh, 0.009));
+    ResultOnHost const all = remapTo(whole, shiftedMesh(whole.mesh, 0.009));
     std::vector<int> owner(24 * 20);
     for (int cell = 0; cell < 24 * 20; ++cell)
       owner[cell] = cell % 24 < 11 + (cell / 24) % 3 ? 0 : 1;
@@ -222,14 +220,17 @@ TEST(LargestSweptPart, uniformMotion_isTheSumOfItsPartsOfACell)
   scene.paint(
       {rest(0)}, [](int, Vector2 const &) { return 1.0; }, [](int, Vector2 const &) { return 1.0; });
   scene.move([](int, Vector2 const &) { return Vector2{0.6 / 8.0, -0.5 / 8.0}; });
-  EXPECT_NEAR(largestSweptPart(scene.mesh, scene.pairs, scene.half, 1.0), 1.1, 1e-13);
+  EXPECT_NEAR(largestSweptPart(scene.mesh.on_device, scene.device.pairs, scene.device.half, 1.0), 1.1, 1e-13);
   // onto a mesh that goes along in x
-  Mesh next = scene.mesh;
+  Mesh next = scene.mesh.on_device;
   next.node_position = View<double *[2]>("next", scene.mesh.num_nodes);
+  auto const position = Kokkos::create_mirror_view(next.node_position);
   for (int node = 0; node < scene.mesh.num_nodes; ++node)
   {
-    next.node_position(node, 0) = scene.mesh.node_position(node, 0) + scene.half(scene.dof_nodes.offset(node), 0);
-    next.node_position(node, 1) = scene.mesh.node_position(node, 1);
+    position(node, 0) = scene.mesh.node_position(node, 0) + scene.half(scene.dof_nodes.offset(node), 0);
+    position(node, 1) = scene.mesh.node_position(node, 1);
   }
-  EXPECT_NEAR(largestSweptPart(next, scene.pairs, scene.half, 1.0, scene.mesh.node_position), 0.5, 1e-13);
+  Kokkos::deep_copy(next.node_position, position);
+  EXPECT_NEAR(largestSweptPart(next, scene.device.pairs, scene.device.half, 1.0, scene.mesh.on_device.node_position),
+              0.5, 1e-13);
 }

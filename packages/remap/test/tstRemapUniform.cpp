@@ -34,7 +34,7 @@ void expectUniform(Scene &scene)
     scene.state.record(pair, DeviatorYY) = -0.3;
     scene.state.record(pair, DeviatorXY) = 0.2;
   }
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
   {
     int const m = result.pairs.material(pair);
@@ -115,7 +115,7 @@ TEST(Uniform, pureRegionThroughOpenBox_staysFullAndBooksItsFlow)
   for (int pair = 0; pair < scene.pairs.num_pairs; ++pair)
     for (int f : {PlasticStrain, DeviatorXX, DeviatorYY, DeviatorXY})
       scene.state.record(pair, f) = 0.0;
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
   {
     EXPECT_EQ(result.state.record(pair, VolumeFraction), 1.0);
@@ -133,7 +133,7 @@ TEST(Uniform, materialThatLeaves_isBookedAsOutflow)
   Scene scene(9, 8, 0.2, twoLaws(), BoundaryKind::Outflow);
   scene.paint({disc(0, {0.7, 0.6}, 0.35)}, density, energy);
   scene.move(drift);
-  RemapResult const result = scene.remapped();
+  ResultOnHost const result = scene.remapped();
   Totals const before = totals(scene.mesh, scene.pairs, scene.state.record, scene.half);
   Totals const after = totals(scene.mesh, result.pairs, result.state.record, result.state.velocity);
   EXPECT_GT(scene.report.outflow_mass, 1e-3);
@@ -151,7 +151,7 @@ TEST(Uniform, velocitiesThatFadeToTheSmallestNumbers_leaveNumbers)
     Scene scene(12, 12, 0.1, {Material{}});
     scene.paint({rest(0)}, density, energy);
     scene.move([least](int, Vector2 const &x) { return Vector2{least * (1.0 - 1.7 * x[1]), least * (x[0] - 0.6)}; });
-    RemapResult const result = scene.remapped();
+    ResultOnHost const result = scene.remapped();
     for (int pair = 0; pair < result.pairs.num_pairs; ++pair)
       for (int f = 0; f < num_pair_fields; ++f)
         EXPECT_EQ(result.state.record(pair, f), scene.state.record(pair, f)) << least;

@@ -15,11 +15,10 @@ Vector2 swirl(int material, Vector2 const &x)
   return s * Vector2{0.004 + 0.002 * material, 0.003 * std::cos(3.0 * x[1])};
 }
 
-RemapResult remapWith(Scene const &scene, RemapWork &work)
+ResultOnHost remapWith(Scene const &scene, RemapWork &work)
 {
   RemapReport report;
-  return remap(scene.mesh, scene.kinematics, scene.pairs, scene.dof_nodes, scene.state, scene.regions, scene.conditions,
-               scene.materials, scene.half, scene.dt, scene.rigid, scene.options, report, work);
+  return scene.remapped(scene.mesh.on_device, report, work);
 }
 
 /// A disc of material 1 in material 0, and a corner of void: a small step changes few cells, a large one many.
@@ -70,7 +69,7 @@ TEST(Work, whereManyMaterialsMeetInACell_theyAllFindRoom)
         return 0.02 * std::sin(Math::pi * x[0]) * Vector2{0.3, std::sin(Math::pi * x[1])};
       });
   RemapWork work;
-  RemapResult const result = remapWith(scene, work);
+  ResultOnHost const result = remapWith(scene, work);
   int most = 0;
   for (int cell = 0; cell < scene.mesh.num_cells; ++cell)
     most = std::max(most, result.pairs.offset(cell + 1) - result.pairs.offset(cell));
