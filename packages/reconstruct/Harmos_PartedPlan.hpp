@@ -2,6 +2,7 @@
 #ifndef HARMOS_PARTED_PLAN_HPP
 #define HARMOS_PARTED_PLAN_HPP
 
+#include <Harmos_CornerCell.hpp>
 #include <Harmos_FilmPlan.hpp>
 #include <Harmos_PartedCell.hpp>
 #include <Harmos_RemovalPlan.hpp>
@@ -118,12 +119,12 @@ HARMOS_LARGE_FUNCTION PartedCell exactPartedCell(PartingProblem &problem, double
 /// both bodies end there, and it suits their centroids better.
 ///
 /// A void that seems to lie between the bodies is bounded by faces along that line; each body's own centroid places it,
-/// and four free parameters would follow noise. Void whose centroid is not beside both bodies may be that, or at both
-/// ends, the one of them about to leave the cell. A body that one cut leaves exact, as a rigid floor, seems to have no
-/// end there. In these cases only an exact cell is taken: an error, the neighbours' misfit included, of at most 1e-4 of
-/// that of cutting in sequence (what bent edges leave of an exact one is up to 2e-6 of it just before a corner leaves
-/// the cell). Where bodies below film_volume go by least squares, tips leave no cell exact: there the
-/// sequence stays, and the neighbours' lines are not asked.
+/// and four free parameters would follow noise. Void whose centroid is not beside both bodies may be that, or, of
+/// solids that have not flowed, at both ends, the one of them about to leave the cell. A body that one cut leaves
+/// exact, as a rigid floor, seems to have no end there. In these cases only an exact cell is taken: an error, the
+/// neighbours' misfit included, of at most 1e-4 of that of cutting in sequence (what bent edges leave of an exact one
+/// is up to 2e-6 of it just before a corner leaves the cell). Where bodies below film_volume go by least squares, tips
+/// leave no cell exact: there the sequence stays, and the neighbours' lines are not asked.
 ///
 /// What a sequence of cuts misses while corners pass each other is little in a cycle, and forgotten with it: the next
 /// one has the centroids of what was cut. The sum does not stay little: the line between the bodies turned upright
@@ -143,7 +144,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan partedPlan(ReconstructionField const &field, C
       return sequence;
   bool const wants_exact = slivers.of_body < film_volume;
   bool only_exact = !voidIsBeside(components);
-  if (only_exact && !wants_exact)
+  if (only_exact && !(wants_exact && mayHaveStraightEdges(field, components)))
     return sequence;
   PartingProblem problem(field, components, parting_misfit);
   PartedCell start[3];
