@@ -64,8 +64,8 @@ HARMOS_LARGE_FUNCTION double turnSecondLine(CellComponents const &components, Bo
 HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field, CellComponents const &components,
                                                 SliverBounds const &slivers, RemovalPlan const &given)
 {
-  constexpr double poor_misfit = 1e-2, better = 0.1, much_better = 1e-2, as_good = 25.0; // squares
-  constexpr double most_miss = 0.1;                                                      // of the least volume
+  constexpr double much_better = 1e-2; // square
+  constexpr double most_miss = 0.1;    // of the least volume
   constexpr int open = 2;
   if (components.count != 3 || components.material[open] != void_material || given.component[0] != open ||
       given.error <= removal_tie)
@@ -81,10 +81,10 @@ HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field
     return given;
   BodyAround const around[2] = {BodyAround(field, components, 0), BodyAround(field, components, 1)};
   double const misfit = continuedMisfit(components, given, around);
-  if (!(misfit > poor_misfit))
+  if (!(misfit > poor_continuation))
     return given;
   RemovalPlan best = given;
-  double const most_error = mayHaveStraightEdges(field, components) ? as_good * given.error : 0.0;
+  double const most_error = mayHaveStraightEdges(field, components) ? as_good_error * given.error : 0.0;
   double best_misfit = misfit;
   int unfinished = given.unfinished;
   for (int pass = 0; pass < 2 && best_misfit >= much_better * misfit; ++pass)
@@ -99,7 +99,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan bodyFirstPlan(ReconstructionField const &field
           turned ? turnSecondLine(components, around, plan) : continuedMisfit(components, plan, around);
       plan.error = momentErrors(components, slivers, plan);
       bool const suits = (its_misfit < much_better * misfit && plan.error <= most_miss * most_miss * least * least) ||
-                         (its_misfit < better * misfit && plan.error <= most_error);
+                         (its_misfit < better_continuation * misfit && plan.error <= most_error);
       if (its_misfit < best_misfit && suits)
       {
         best = plan;

@@ -8,8 +8,15 @@
 namespace Harmos
 {
 
-/// Mean over the neighbours of the squared differences between what bodies fill there and what a sequence of cuts gives
-/// them when its lines go on.
+constexpr double poor_continuation = 1e-2;  // continuedMisfit of lines that are no order for the bodies
+constexpr double better_continuation = 0.1; // part of it that a better order of straight bodies has at most
+constexpr double as_good_error = 25.0;      // momentErrors of such an order over those of the given one, at most
+
+/// How a sequence of cuts, its lines continued, suits the neighbours:
+///
+///     m^2 = 1/N sum_k sum_j (g_kj - f_kj)^2,
+///
+/// N neighbours j, g_kj the part of one that lies on body k's side of all lines, f_kj what body k fills of it.
 /// \param components Bodies and void, four at most.
 /// \param around Of the first bodies.
 template <int bodies>

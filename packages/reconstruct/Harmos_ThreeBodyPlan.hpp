@@ -24,7 +24,6 @@ HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field
                                                 SliverBounds const &slivers, RemovalPlan const &given)
 {
   constexpr int bodies = 3;
-  constexpr double poor_misfit = 1e-2, better = 0.1, as_good = 25.0; // squares
   int const count = components.count;
   int const bodies_here = components.material[count - 1] == void_material ? count - 1 : count;
   if (bodies_here != bodies || given.error <= removal_tie || !mayHaveStraightEdges(field, components))
@@ -35,12 +34,12 @@ HARMOS_LARGE_FUNCTION RemovalPlan threeBodyPlan(ReconstructionField const &field
   BodyAround const around[bodies] = {BodyAround(field, components, 0), BodyAround(field, components, 1),
                                      BodyAround(field, components, 2)};
   double const misfit = continuedMisfit(components, given, around);
-  if (!(misfit > poor_misfit))
+  if (!(misfit > poor_continuation))
     return given;
-  double const most_error = as_good * momentErrors(components, slivers, given);
+  double const most_error = as_good_error * momentErrors(components, slivers, given);
   bool const keeps_first = components.holds(components.exact, given.component[0]);
   RemovalPlan best = given;
-  double least = better * misfit;
+  double least = better_continuation * misfit;
   int unfinished = given.unfinished;
   for (int first = 0; first < count; ++first)
     for (int second = 0; second < count; ++second)
