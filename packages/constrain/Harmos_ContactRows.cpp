@@ -12,22 +12,25 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                              std::vector<Bond> const &bonds, ConstraintOptions const &options, Motion const &before,
                              double dt, WorkArrays const &work, PressureTractions *tractions)
 {
-  RowBuilder const builder{mesh,
-                           pairs,
-                           dof_nodes,
-                           regions,
-                           {options.short_segments, options.shortest_segment, options.placement, options.fluid},
-                           segments,
-                           segments.segment,
-                           hit,
-                           facingSegments(segments.segment, hit, bins, work),
-                           bodies,
-                           conditions.boundary,
-                           binBonds(bonds, work),
-                           options,
-                           bins,
-                           before,
-                           dt};
+  SegmentBearing const bearing{options.short_segments, options.shortest_segment, options.placement, options.fluid};
+  RowBuilder const builder{
+      mesh,
+      pairs,
+      dof_nodes,
+      regions,
+      bearing,
+      segments,
+      segments.segment,
+      hit,
+      facingSegments(segments.segment, hit, bins, work),
+      bodies,
+      conditions.boundary,
+      binBonds(bonds, work),
+      options,
+      bins,
+      before,
+      dt,
+      findCornerContacts(mesh, pairs, segments, hit, bins, bodies, bearing, options, before, dt, work)};
   View<PlannedRows *> const planned = work.unset<PlannedRows *>("Harmos::constrain::planned", segments.count);
   launchFor(
       "Harmos::constrain::planRows", segments.count, KOKKOS_LAMBDA(int i) { builder.plan(i, planned(i)); });

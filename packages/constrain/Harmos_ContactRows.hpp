@@ -57,6 +57,9 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 ///
 /// Of short pieces of facets that meet where both sides are smooth arcs the gap is that of the arcs (curvedGap).
 ///
+/// A corner of a deformable solid above a face of another has one row, with the face as slave, in the place of those of
+/// that segment and of its edges (CornerContacts).
+///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
 /// on segments shorter than shortest_segment (but where short_segments keeps them), on cell faces exposed by less than
 /// exposed_face, between driven bodies, between sides that share their dof nodes, and where the segment's own normal is

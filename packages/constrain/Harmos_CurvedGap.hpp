@@ -147,6 +147,29 @@ KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegmen
   return a.smooth && b.smooth && gap > 0.0 && gap <= opening * longest_squared / 12.0 ? gap : 0.0;
 }
 
+/// \brief Void between a corner and a smooth convex side, which its facets leave too little of: the gap to the facet at
+/// its foot, and what lies between the ends of a chord and the arc (fitSide).
+///
+/// \param face Segment at the foot. \param n Unit normal of its side there. \param gap To the facet. [length]
+KOKKOS_INLINE_FUNCTION double gapAboveArc(SegmentBins const &bins, InterfaceSegment const &face, Vector2 const &corner,
+                                          Vector2 const &n, double gap)
+{
+  constexpr double longest_squared = 2.0; // chord of a cell
+  double const h = face.cell_size, box = (SideArc::reach + 1.0) * h;
+  SideFacets side;
+  bins.forEach(corner - Vector2{box, box}, corner + Vector2{box, box},
+               [&](int, BinnedSegment const &s)
+               {
+                 Vector2 const d = (1.0 / h) * (s.midpoint - corner);
+                 double const along = dot(s.normal, n), t = cross(d, n);
+                 if (s.material == face.material && along >= fit_least_cosine && Math::fabs(t) <= SideArc::reach + 1.0)
+                   side.add(s.cell, along * s.length / h, t, dot(d, n), cross(n, s.normal) / along);
+               });
+  SideArc const arc = fitSide(side);
+  double const beyond = -arc.height * h - gap;
+  return arc.smooth && beyond > 0.0 && beyond <= -arc.curvature * h * longest_squared / 12.0 ? gap + beyond : gap;
+}
+
 } // namespace Harmos
 
 #endif

@@ -5,30 +5,16 @@
 #include <Harmos_BentEdge.hpp>
 #include <Harmos_BondBins.hpp>
 #include <Harmos_ContactRows.hpp>
+#include <Harmos_CornerContacts.hpp>
 #include <Harmos_CurvedGap.hpp>
 #include <Harmos_FacingSegments.hpp>
 #include <Harmos_Fullness.hpp>
 #include <Harmos_JoinedSegments.hpp>
+#include <Harmos_PlannedRows.hpp>
 #include <Harmos_SegmentBearing.hpp>
 
 namespace Harmos
 {
-
-/// The rows of a segment, before they are written.
-struct PlannedRows
-{
-  int count;   // 0, 1 or 2
-  bool joined; // with other pieces of its line (JoinedSegments)
-  Vector2 normal[2];
-  RayHit hit[2];
-};
-
-/// An end of a segment with one row may come by this in a step: half of the segment then overlaps by sqrt(2)/8 of it,
-/// 0.004 of a cell. What lies on each other, or rolls, keeps one row. [cells]
-constexpr double most_approach = 0.02;
-
-/// An end that is, or gets, ahead of the middle by less goes through with the middle. [cells]
-constexpr double least_lead = 1e-3;
 
 struct RowBuilder
 {
@@ -48,6 +34,7 @@ struct RowBuilder
   SegmentBins bins;
   Motion before;
   double dt;
+  CornerContacts corners = {};
 
   KOKKOS_INLINE_FUNCTION int bodyOf(int material) const { return material < 0 ? -2 : bodies.of_material(material); }
 
@@ -102,7 +89,7 @@ struct RowBuilder
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
-        meetByOutline(a, b))
+        meetByOutline(a, b) || corners.isBorne(segment, i, b.material))
       return false;
     return b.material < 0 || haveOwnNodes(a);
   }
@@ -265,6 +252,9 @@ struct RowBuilder
   {
     rows.count = 0;
     rows.joined = false;
+    rows.corner = corners.borneBy(i);
+    if (rows.corner >= 0)
+      return planCorner(i, rows);
     if (!mayCarryRow(i))
       return;
     JoinedSegments::Line line;
@@ -278,6 +268,21 @@ struct RowBuilder
     to.gap = line.gap;
     if (line.carrier == i)
       planAlong(line.whole, to, i, rows);
+  }
+
+  /// The row of the corner that stands on segment i.
+  KOKKOS_INLINE_FUNCTION void planCorner(int i, PlannedRows &rows) const
+  {
+    InterfaceSegment const &a = segment(i);
+    if (mesh.cell_depth(a.cell) != 0 || !haveOwnNodes(a))
+      return;
+    CornerContact const &contact = corners.contact(rows.corner);
+    rows.count = 1;
+    Vector2 const n = sideNormal(bins, a, contact.foot);
+    Vector2 const corner = contact.foot + contact.gap * a.normal;
+    rows.normal[0] = n;
+    rows.hit[0] = {contact.segment, gapAboveArc(bins, a, corner, n, contact.gap),
+                   -dot(a.normal, segment(contact.segment).normal)};
   }
 
   /// The rows of segment i along `a`: the segment, or the line that it is a piece of.
@@ -461,7 +466,9 @@ struct RowBuilder
   {
     JoinedSegments::Line line;
     InterfaceSegment const &whole = rows.joined && joinedSegments().find(i, line) ? line.whole : segment(i);
-    InterfaceSegment const a = rows.count == 2 ? halfOf(whole, half) : whole;
+    InterfaceSegment a = rows.count == 2 ? halfOf(whole, half) : whole;
+    if (rows.corner >= 0)
+      a.point = corners.contact(rows.corner).foot;
     InterfaceSegment const &b = segment(rows.hit[half].segment);
     ContactRow row = {};
     row.key = mesh.cell_global(a.cell) * max_cell_rows + 2 * a.number + half;
@@ -476,7 +483,7 @@ struct RowBuilder
     row.gap = rows.hit[half].gap;
     row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
     setInteraction(b, row);
-    Traction traction = tractionOf(a, b);
+    Traction traction = rows.corner < 0 ? tractionOf(a, b) : Traction{a.point, {0.0, 0.0}, 0.0, {0.0, 0.0}};
     row.length *= 1.0 + 0.5 * (traction.share[0] + traction.share[1]);
     fillSide(a, traction, row.body_a, row.dof_a, row.weight_a);
     traction.middle += row.gap * a.normal;

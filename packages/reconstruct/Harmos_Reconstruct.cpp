@@ -64,6 +64,9 @@ HARMOS_LARGE_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, 
   RemovalPlan const apart = apartPlan(field, components, slivers, sequence);
   if (apart.apart)
     return apart;
+  RemovalPlan const pressed = pressedCornerPlan(field, components, slivers, sequence);
+  if (pressed.corner)
+    return pressed;
   RemovalPlan const body_first = bodyFirstPlan(field, components, slivers, sequence);
   if (body_first.component[0] != sequence.component[0])
     return body_first;

@@ -177,3 +177,32 @@ TEST(CurvedGap, twoCellsOfASide_doNotTell)
       few.push_back(s);
   EXPECT_EQ(gapOf(few, atPoint(0.0)), 0.0);
 }
+
+TEST(CurvedGap, cornerAboveAnArc_isAsFarAwayAsTheArc)
+{
+  for (double r : {4.0, 6.0, 20.0})
+    for (double t : {-0.5, 0.0, 0.28, 0.32})
+    {
+      std::vector<InterfaceSegment> all;
+      for (int i = -3; i < 3; ++i)
+        addChord(all, 0, 10 + i, r, 0.0, i + 0.3, i + 1.3);
+      InterfaceSegment const &face = all[t < 0.3 ? 2 : 3];
+      double const gap = 0.02, height = gap - depth(r, t);
+      Vector2 const up = turned({0.0, 1.0}), corner = cell_size * turned({t, height});
+      double const to_chord = dot(corner - face.midpoint, face.normal);
+      InterfaceSegments s;
+      s.count = static_cast<int>(all.size());
+      s.segment = deviceCopy("segment", all);
+      SegmentBins const bins = binSegments(s, 1.2 * cell_size);
+      View<double *> const found("found", 1);
+      Kokkos::parallel_for(
+          "gapAboveArc", RangePolicy(0, 1),
+          KOKKOS_LAMBDA(int) { found(0) = gapAboveArc(bins, face, corner, up, to_chord); });
+      double const result = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), found)(0) / cell_size;
+      EXPECT_NEAR(result, Math::max(gap, to_chord / cell_size), 1e-3) << r << " " << t;
+      if (t > 0.2)
+      {
+        EXPECT_GT(result, to_chord / cell_size) << r << " " << t;
+      }
+    }
+}

@@ -257,6 +257,33 @@ TEST(ReconstructCorners, roundBody_keepsStraightLines)
   }
 }
 
+// A corner that stands on a plane, which has bent its edges by half a degree a third of a cell above the tip.
+TEST(ReconstructCorners, bentCornerThatStandsOnAPlane_isNotCutOff)
+{
+  Mesh const mesh = makeMesh(7, 7, 1.0);
+  double worst = 0.0;
+  for (double degrees = 3.0; degrees < 360.0; degrees += 17.0)
+    for (double const lean : {25.0, 45.0, 60.0})
+    {
+      Vector2 const tip{3.45, 3.55}, up = halfPlane(degrees + 90.0, tip).normal;
+      Body square{opposite(halfPlane(degrees + 90.0, tip))};
+      for (double const edge : {lean + 90.0, lean})
+      {
+        double const outward = degrees + edge + 180.0, bend = edge > 90.0 ? 0.5 : -0.5;
+        Vector2 const along = perpendicular(halfPlane(outward, tip).normal);
+        square.push_back(halfPlane(outward, tip));
+        square.push_back(halfPlane(outward + bend, tip + (dot(along, up) > 0.0 ? 0.33 : -0.33) * along));
+      }
+      std::vector<Body> const all{{halfPlane(degrees + 90.0, tip)}, square};
+      Scene const scene = paint(mesh, bodies(all));
+      FilledRegions const regions = reconstructed(scene, sliver);
+      auto const by_pair = misplacedByCell(scene, regions, all).at(3 * 7 + 3);
+      worst = std::max(worst, *std::max_element(by_pair.begin(), by_pair.end()));
+    }
+  std::printf("misplaced in the corner's cell: at most %.1e\n", worst);
+  EXPECT_LT(worst, 3e-3);
+}
+
 // A fragment within its cell: no neighbour tells how its edges go on, so that one line bounds it.
 TEST(ReconstructCorners, fragmentOnAPlane_keepsAStraightLine)
 {

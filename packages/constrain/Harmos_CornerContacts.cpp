@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Harmos_CornerContacts.hpp>
+#include <Harmos_JoinedSegments.hpp>
+#include <Harmos_PlannedRows.hpp>
+
+namespace Harmos
+{
+
+namespace
+{
+
+constexpr double least_rise = 0.05;   // sine of the angle between face and edge
+constexpr double lies_flat = 0.95;    // cosine of that between face and tip
+constexpr double longest_tip = 0.5;   // that is pressed flat [cells]
+constexpr double shortest_edge = 0.3; // of a corner, and face below it [cells]
+constexpr double most_overlap = 0.05; // of the corner with the face, where their cells miss each other [cells]
+
+KOKKOS_INLINE_FUNCTION Vector2 endOf(InterfaceSegment const &s, int end)
+{
+  return s.midpoint + ((end - 0.5) * s.length) * perpendicular(s.normal);
+}
+
+struct CornerFinder
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  InterfaceSegments segments;
+  View<InterfaceSegment *> segment; // theirs
+  View<RayHit *> hit;
+  SegmentBins bins;
+  BodyTable bodies;
+  SegmentBearing bearing;
+  ConstraintOptions options;
+  Motion before;
+  double dt;
+
+  KOKKOS_INLINE_FUNCTION bool isSolid(int material) const
+  {
+    return material >= 0 && bodies.of_material(material) == -1 && !bearing.presses(material);
+  }
+
+  /// Whether a segment is a step between the lines of two cells rather than an edge of its body.
+  KOKKOS_INLINE_FUNCTION bool isStep(InterfaceSegment const &s) const
+  {
+    return s.face >= 0 && s.exposed < options.exposed_face;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool touches(int i) const
+  {
+    return hit(i).segment >= 0 && hit(i).gap <= touching_gap * segment(i).cell_size;
+  }
+
+  /// The segment of a cell that begins where segment i ends, or ends where it begins; -1: none.
+  /// \param side 1: behind segment i along the outline, 0: before it.
+  KOKKOS_INLINE_FUNCTION int nextIn(int cell, int i, int side) const
+  {
+    constexpr double near = 1e-6; // [cells]
+    InterfaceSegment const &a = segment(i);
+    Vector2 const end = endOf(a, side);
+    for (int j = segments.firstOf(cell); j < segments.count && segment(j).cell == cell; ++j)
+    {
+      Vector2 const apart = endOf(segment(j), 1 - side) - end;
+      if (j != i && segment(j).material == a.material && dot(apart, apart) <= near * near * a.cell_size * a.cell_size)
+        return j;
+    }
+    return -1;
+  }
+
+  /// The next segment along the outline, in the same cell or across a face; -1: none.
+  KOKKOS_INLINE_FUNCTION int next(int i, int side = 1) const
+  {
+    int const cell = segment(i).cell;
+    int found = nextIn(cell, i, side);
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    for (int k = 0; k < 4 && found < 0; ++k)
+      if (isOnFace(q, k, endOf(segment(i), side)) && mesh.face_neighbour(cell, k) >= 0)
+        found = nextIn(mesh.face_neighbour(cell, k) / 4, i, side);
+    return found;
+  }
+
+  /// How far the outline goes on straight from segment i to one side, that included, as far as it is asked. [cells]
+  KOKKOS_INLINE_FUNCTION double straightLength(int i, int side, double enough) const
+  {
+    constexpr int most_pieces = 6;
+    constexpr double straight = 0.95; // cosine
+    double length = segment(i).length;
+    int at = next(i, side);
+    for (int pieces = 0; pieces < most_pieces && at >= 0 && at != i && length < enough * segment(i).cell_size; ++pieces)
+    {
+      if (!isStep(segment(at)))
+      {
+        if (dot(segment(at).normal, segment(i).normal) < straight)
+          break;
+        length += segment(at).length;
+      }
+      at = next(at, side);
+    }
+    return length / segment(i).cell_size;
+  }
+
+  /// Whether a segment is a piece of a face, rather than of what the lines of several cells leave of one.
+  KOKKOS_INLINE_FUNCTION bool isPieceOfFace(int f) const
+  {
+    double const length = segment(f).length / segment(f).cell_size;
+    return straightLength(f, 0, shortest_edge) + straightLength(f, 1, shortest_edge) - length >= shortest_edge;
+  }
+
+  /// The corner that segment i leads to, without its face; without segment behind it where there is none.
+  KOKKOS_INLINE_FUNCTION CornerContact cornerBehind(int i) const
+  {
+    constexpr int most_pieces = 6;
+    // Cosines of the turn; chords of discs of three cells' radius turn by less from cell to cell.
+    constexpr double in_cell = 0.8, across = 0.6, most_turn = -0.87; // the last: corners of 30 degrees
+    InterfaceSegment const &a = segment(i);
+    CornerContact corner{-1, {i, -1}, -1, {0.0, 0.0}, 0.0, i};
+    if (!isSolid(a.material) || isStep(a) || touches(i))
+      return corner;
+    int after = next(i);
+    double flat = 0.0;
+    for (int pieces = 0; pieces < most_pieces && after >= 0 && after != i; ++pieces)
+    {
+      InterfaceSegment const &s = segment(after);
+      if (!isStep(s))
+      {
+        if (!touches(after) || flat + s.length > longest_tip * a.cell_size)
+          break;
+        flat += s.length;
+        if (corner.tip < 0 || s.length > segment(corner.tip).length)
+          corner.tip = after;
+      }
+      after = next(after);
+    }
+    if (after < 0 || isStep(segment(after)) || touches(after))
+      return corner;
+    InterfaceSegment const &b = segment(after);
+    double const turn = dot(a.normal, b.normal);
+    if (turn > (a.cell == b.cell ? in_cell : across) || turn < most_turn || !(cross(a.normal, b.normal) > 0.0))
+      return corner;
+    if (straightLength(i, 0, shortest_edge) < shortest_edge || straightLength(after, 1, shortest_edge) < shortest_edge)
+      return corner;
+    corner.edge[1] = after;
+    corner.segment = corner.tip >= 0 ? corner.tip : b.length > a.length ? after : i;
+    corner.foot = corner.tip < 0 ? 0.5 * (endOf(a, 1) + endOf(b, 0)) : segment(corner.tip).midpoint;
+    return corner;
+  }
+
+  /// Whether a corner of a material may stand on face f.
+  KOKKOS_INLINE_FUNCTION bool mayBear(int f, int material) const
+  {
+    InterfaceSegment const &face = segment(f);
+    return isSolid(face.material) && face.material != material && !isStep(face) &&
+           options.interaction(face.material, material).kind != Interaction::Bonded &&
+           (hit(f).segment < 0 || segment(hit(f).segment).material == material);
+  }
+
+  /// Velocity of the material of a segment at a point of its cell, at v^{n-1/2}.
+  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(InterfaceSegment const &s, Vector2 const &point) const
+  {
+    double weight[4];
+    shapeFunctionsAt(cellQuadrilateral(mesh, s.cell), point, weight);
+    Vector2 v{0.0, 0.0};
+    for (int k = 0; k < 4; ++k)
+    {
+      int const dof = pairs.dof_node(s.pair, k);
+      v += weight[k] * Vector2{before.velocity(dof, 0), before.velocity(dof, 1)};
+    }
+    return v;
+  }
+
+  /// Whether a corner comes so fast that facets are to be held by two rows (most_approach).
+  KOKKOS_INLINE_FUNCTION bool comesFast(CornerContact const &contact) const
+  {
+    if (!(dt > 0.0))
+      return false;
+    InterfaceSegment const &face = segment(contact.face), &s = segment(contact.segment);
+    Vector2 const apart = velocityAt(face, contact.foot) - velocityAt(s, contact.foot + contact.gap * face.normal);
+    return dt * norm(apart) > most_approach * face.cell_size;
+  }
+
+  /// Give a corner the nearest face below it, within one cell size.
+  KOKKOS_INLINE_FUNCTION void findFace(CornerContact &contact) const
+  {
+    InterfaceSegment const &a = segment(contact.edge[0]);
+    Vector2 const corner = contact.foot, back = -perpendicular(a.normal);
+    Vector2 const on = perpendicular(segment(contact.edge[1]).normal);
+    double const h = a.cell_size, reach = h + 0.5 * bins.size;
+    double nearest = h;
+    bins.forEach(corner - Vector2{reach, reach}, corner + Vector2{reach, reach},
+                 [&](int, BinnedSegment const &s)
+                 {
+                   if (dot(back, s.normal) < least_rise || dot(on, s.normal) < least_rise ||
+                       (contact.tip >= 0 && dot(segment(contact.tip).normal, s.normal) > -lies_flat))
+                     return;
+                   Vector2 const apart = corner - s.midpoint;
+                   double const gap = dot(apart, s.normal), along = dot(apart, perpendicular(s.normal));
+                   if (!(Math::fabs(gap) < nearest) || gap < -most_overlap * h ||
+                       Math::fabs(along) > 0.5 * s.length + 1e-7 * h || !mayBear(s.segment, a.material))
+                     return;
+                   nearest = Math::fabs(gap);
+                   contact.face = s.segment;
+                   contact.foot = s.midpoint + along * perpendicular(s.normal);
+                   contact.gap = Math::max(gap, 0.0);
+                 });
+    if (contact.face >= 0 && (!isPieceOfFace(contact.face) || comesFast(contact)))
+      contact.face = -1;
+  }
+};
+
+/// The contacts that faces bear: of several above one the nearest, of these the first.
+void giveToFaces(int num_segments, CornerContacts &corners, WorkArrays const &work)
+{
+  View<double *> const least = work.unset<double *>("Harmos::constrain::corner_gap", num_segments);
+  corners.of_face = work.unset<int *>("Harmos::constrain::corner_of_face", num_segments);
+  corners.of_edge = work.unset<int *[2]>("Harmos::constrain::corner_of_edge", num_segments);
+  CornerContacts const c = corners;
+  launchFor(
+      "Harmos::constrain::noCorners", num_segments, KOKKOS_LAMBDA(int i) {
+        least(i) = 1e300;
+        c.of_face(i) = c.count;
+        c.of_edge(i, 0) = c.of_edge(i, 1) = -1;
+      });
+  launchFor(
+      "Harmos::constrain::nearestCorners", c.count, KOKKOS_LAMBDA(int k) {
+        if (c.contact(k).face >= 0)
+          Kokkos::atomic_fetch_min(&least(c.contact(k).face), c.contact(k).gap);
+      });
+  launchFor(
+      "Harmos::constrain::cornersOfFaces", c.count, KOKKOS_LAMBDA(int k) {
+        int const face = c.contact(k).face;
+        if (face >= 0 && c.contact(k).gap == least(face))
+          Kokkos::atomic_fetch_min(&c.of_face(face), k);
+      });
+  launchFor(
+      "Harmos::constrain::cornersOfEdges", c.count, KOKKOS_LAMBDA(int k) {
+        CornerContact const &contact = c.contact(k);
+        if (contact.face < 0 || c.of_face(contact.face) != k)
+          return;
+        c.of_edge(contact.edge[0], 1) = k;
+        c.of_edge(contact.edge[1], 0) = k;
+        if (contact.tip >= 0)
+          c.of_edge(contact.tip, 0) = k;
+      });
+  launchFor(
+      "Harmos::constrain::facesWithoutCorners", num_segments, KOKKOS_LAMBDA(int i) {
+        if (c.of_face(i) == c.count)
+          c.of_face(i) = -1;
+      });
+}
+
+} // namespace
+
+CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pairs, InterfaceSegments const &segments,
+                                  View<RayHit *> const &hit, SegmentBins const &bins, BodyTable const &bodies,
+                                  SegmentBearing const &bearing, ConstraintOptions const &options, Motion const &before,
+                                  double dt, WorkArrays const &work)
+{
+  CornerFinder const finder{mesh, pairs, segments, segments.segment, hit, bins, bodies, bearing, options, before, dt};
+  View<int *> const leading = work.unset<int *>("Harmos::constrain::before_corner", segments.count);
+  CornerContacts corners;
+  launchScan(
+      "Harmos::constrain::findCorners", segments.count,
+      KOKKOS_LAMBDA(int i, int &sum, bool final) {
+        if (finder.cornerBehind(i).edge[1] < 0)
+          return;
+        if (final)
+          leading(sum) = i;
+        ++sum;
+      },
+      corners.count);
+  if (corners.count == 0)
+    return corners;
+  corners.contact = work.unset<CornerContact *>("Harmos::constrain::corner_contact", corners.count);
+  View<CornerContact *> const contact = corners.contact;
+  launchFor(
+      "Harmos::constrain::facesBelowCorners", corners.count, KOKKOS_LAMBDA(int k) {
+        contact(k) = finder.cornerBehind(leading(k));
+        finder.findFace(contact(k));
+      });
+  giveToFaces(segments.count, corners, work);
+  return corners;
+}
+
+} // namespace Harmos

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_CORNER_CONTACTS_HPP
+#define HARMOS_CORNER_CONTACTS_HPP
+
+#include <Harmos_ContactRows.hpp>
+#include <Harmos_NormalFit.hpp>
+#include <Harmos_SegmentBearing.hpp>
+
+namespace Harmos
+{
+
+/// A convex corner of one body and the segment of another one below it.
+struct CornerContact
+{
+  int face;     // segment; -1: none
+  int edge[2];  // the segments before and after the corner along its outline
+  int tip;      // the short one between them that is pressed flat; -1: none
+  Vector2 foot; // of the corner on the face
+  double gap;   // from the foot to the corner along the face's normal, >= 0
+  int segment;  // whose pair moves the corner: the tip, or the longer edge
+};
+
+/// \brief Corners of deformable solids that stand above faces of others.
+///
+/// Where both edges of a corner rise from a face the corner alone touches it: one row stands at its foot, with the
+/// normal of the face (sideNormal), in the place of the rows of the face's segment and of both edges. Their rays start
+/// in the middle of facets, a quarter of a cell beside the corner, and their normals are the means of face and edge.
+struct CornerContacts
+{
+  int count = 0;
+  View<CornerContact *> contact;
+  View<int *> of_face;    // segments: the contact that each bears, -1: none; extent 0: there is no corner
+  View<int *[2]> of_edge; // segments: the contacts of the corners at their ends
+
+  /// The contact that segment i bears; -1: none.
+  KOKKOS_INLINE_FUNCTION int borneBy(int i) const { return count > 0 ? of_face(i) : -1; }
+
+  /// Whether segment i ends in a corner that a face of the material bears.
+  KOKKOS_INLINE_FUNCTION bool isBorne(View<InterfaceSegment *> const &segment, int i, int material) const
+  {
+    for (int end = 0; count > 0 && end < 2; ++end)
+      if (of_edge(i, end) >= 0 && segment(contact(of_edge(i, end)).face).material == material)
+        return true;
+    return false;
+  }
+};
+
+/// The corners above faces: between two deformable solids that are not bonded.
+/// \param hit Of the segments' rays: a face whose ray meets a third body bears no corner.
+CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pairs, InterfaceSegments const &segments,
+                                  View<RayHit *> const &hit, SegmentBins const &bins, BodyTable const &bodies,
+                                  SegmentBearing const &bearing, ConstraintOptions const &options, Motion const &before,
+                                  double dt, WorkArrays const &work = {});
+
+/// The normal of a body at a point of a segment of its outline: of the parabola through its segments around that
+/// (fitNormal).
+KOKKOS_INLINE_FUNCTION Vector2 sideNormal(SegmentBins const &bins, InterfaceSegment const &s, Vector2 const &point)
+{
+  FitSamples samples;
+  double const inverse_h = 1.0 / s.cell_size;
+  Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
+  bins.forEach(point - reach, point + reach,
+               [&](int, BinnedSegment const &other)
+               {
+                 Vector2 const offset = inverse_h * (other.midpoint - point);
+                 double const kernel = 1.0 - dot(offset, offset) / (fit_reach * fit_reach);
+                 if (other.material != s.material || !(kernel > 0.0) || dot(other.normal, s.normal) < fit_least_cosine)
+                   return;
+                 double const length = inverse_h * other.length;
+                 samples.push({offset, other.normal, length, length * kernel * kernel, 0.0, 0});
+               });
+  return fitNormal(samples, s.normal, true);
+}
+
+} // namespace Harmos
+
+#endif

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RowsOfScene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace HarmosTest;
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+/// In the frame of a face, inclined by `angle` through (4.1, 4.2).
+struct Frame
+{
+  double angle;
+
+  Vector2 normal() const { return {-std::sin(angle), std::cos(angle)}; }
+  Vector2 at(double along, double up) const
+  {
+    return Vector2{4.1, 4.2} + along * Vector2{std::cos(angle), std::sin(angle)} + up * normal();
+  }
+};
+
+/// A block below the face, and a square that stands on its corner above it, turned by `lean` from lying on its side.
+/// \param along, gap Of the corner. \param block, square Materials.
+TinyScene cornerAboveFace(Frame const &frame, double along, double gap, double lean, int block = 0)
+{
+  double const c = std::cos(lean), s = std::sin(lean);
+  auto const of_square = [&](double x, double y) { return frame.at(along + c * x - s * y, gap + s * x + c * y); };
+  return TinyScene(
+      rectilinearMesh(uniform(8, 8), uniform(8, 8)),
+      {polygonBody(block, {frame.at(-20, -20), frame.at(20, -20), frame.at(20, 0), frame.at(-20, 0)}),
+       polygonBody(1 - block, {of_square(0, 0), of_square(2.5, 0), of_square(2.5, 2.5), of_square(0, 2.5)})},
+      2, open_box);
+}
+
+/// The row of the least gap near a foot; all others there are further apart.
+ContactRow nearestRow(std::vector<ContactRow> const &rows, Vector2 const &foot)
+{
+  ContactRow nearest = {};
+  nearest.gap = 1e300;
+  int count = 0;
+  for (ContactRow const &row : rows)
+    if (norm(row.point - foot) < 0.4)
+    {
+      count += std::fabs(row.gap - nearest.gap) < 1e-6 ? 1 : 0;
+      nearest = row.gap < nearest.gap ? row : nearest;
+    }
+  EXPECT_EQ(count, 0);
+  return nearest;
+}
+
+void expectOneRowAtTheCorner(Frame const &frame, double along, double gap, double lean, int block)
+{
+  SCOPED_TRACE(testing::Message() << "face at " << frame.angle << ", corner at " << along << ", " << gap
+                                  << ", leans by " << lean << ", block is material " << block);
+  ContactRow const row = nearestRow(rowsOf(cornerAboveFace(frame, along, gap, lean, block)), frame.at(along, 0.0));
+  EXPECT_EQ(row.material_a, block);
+  EXPECT_LT(norm(row.point - frame.at(along, 0.0)), 1e-12);
+  EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
+  EXPECT_NEAR(row.gap, gap, 1e-12);
+}
+
+} // namespace
+
+TEST(CornerContacts, cornerAboveAFace_hasOneRowAtItsFootWithTheNormalOfTheFace)
+{
+  for (double const angle : {0.0, 0.3, 0.7})
+    for (double const lean : {pi / 4, pi / 6, pi / 10, 0.4 * pi})
+      for (double const along : {0.0, 0.15, 0.43})
+        for (double const gap : {0.002, 0.05})
+          for (int const block : {0, 1})
+            expectOneRowAtTheCorner({angle}, along, gap, lean, block);
+}
+
+TEST(CornerContacts, cornerThatSlidesAlongAFace_isNotFelt)
+{
+  // The means of face and edge lean by 22.5 degrees: the corner would come by 0.007 along them.
+  Frame const frame{0.3};
+  TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, pi / 4);
+  Vector2 const along{std::cos(0.3), std::sin(0.3)};
+  scene.dt = 1.0;
+  scene.setVelocity([&](int material, Vector2 const &) { return material == 1 ? 0.018 * along : Vector2{0.0, 0.0}; });
+  ConstraintReport const report = scene.constrain();
+  for (PairForce const &force : report.pair_force)
+    EXPECT_EQ(norm(force.impulse), 0.0);
+}
+
+TEST(CornerContacts, cornerThatComes_isStoppedOnTheFace)
+{
+  Frame const frame{0.3};
+  TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, pi / 4);
+  scene.dt = 1.0;
+  scene.setVelocity(
+      [&](int material, Vector2 const &) {
+        return material == 1 ? -0.015 * frame.normal() : Vector2{0.0, 0.0};
+      });
+  scene.constrain();
+  ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
+  auto const half = onHost(scene.half);
+  double closing = 0.0;
+  for (int k = 0; k < 4; ++k)
+    for (int d = 0; d < 2; ++d)
+      closing += row.normal[d] * (row.weight_a[k] * half(row.dof_a[k], d) - row.weight_b[k] * half(row.dof_b[k], d));
+  EXPECT_NEAR(closing, 0.003, 1e-10);
+}
+
+TEST(CornerContacts, cornerPressedFlat_hasOneRowOnItsTip)
+{
+  // The square is cut off where it would reach into the block, by 0.03: the tip is 0.06 long, and too short for a row.
+  Frame const frame{0.3};
+  double const side = 2.5 * std::sqrt(0.5), deep = 0.03;
+  TinyScene const scene(
+      rectilinearMesh(uniform(8, 8), uniform(8, 8)),
+      {polygonBody(0, {frame.at(-20, -20), frame.at(20, -20), frame.at(20, 0), frame.at(-20, 0)}),
+       polygonBody(1, {frame.at(0.1 - deep, 0.0), frame.at(0.1 + deep, 0.0), frame.at(0.1 + side, side - deep),
+                       frame.at(0.1, 2 * side - deep), frame.at(0.1 - side, side - deep)})},
+      2, open_box);
+  ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
+  EXPECT_LT(norm(row.point - frame.at(0.1, 0.0)), 1e-12);
+  EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
+  EXPECT_NEAR(row.gap, 0.0, 1e-12);
+}
+
+TEST(CornerContacts, squareThatLiesOnAFace_keepsTheRowsOfItsFacets)
+{
+  Frame const frame{0.3};
+  auto const rows = rowsOf(cornerAboveFace(frame, 0.1, 0.0, 0.0, 1));
+  ASSERT_GE(rows.size(), 3u);
+  for (ContactRow const &row : rows)
+    EXPECT_EQ(row.material_a, 0);
+}
+
+TEST(CornerContacts, bondedMaterials_keepTheRowsOfTheirFacets)
+{
+  Frame const frame{0.3};
+  TinyScene scene = cornerAboveFace(frame, 0.1, 0.002, pi / 4, 1);
+  PairInteraction bonded;
+  bonded.kind = Interaction::Bonded;
+  scene.setInteraction(0, 1, bonded);
+  for (ContactRow const &row : rowsOf(scene))
+    EXPECT_EQ(row.material_a, 0);
+}
