@@ -50,32 +50,37 @@ struct CornerFinder
     return hit(i).segment >= 0 && hit(i).gap <= touching_gap * segment(i).cell_size;
   }
 
-  /// The segment of a cell that begins where segment i ends, or ends where it begins; -1: none.
-  /// \param side 1: behind segment i along the outline, 0: before it.
-  KOKKOS_INLINE_FUNCTION int nextIn(int cell, int i, int side) const
+  /// Whether segment j begins where segment i ends (side 1), or ends where it begins (0).
+  KOKKOS_INLINE_FUNCTION bool follows(int i, int j, int side) const
   {
     constexpr double near = 1e-6; // [cells]
-    InterfaceSegment const &a = segment(i);
-    Vector2 const end = endOf(a, side);
-    for (int j = segments.firstOf(cell); j < segments.count && segment(j).cell == cell; ++j)
-    {
-      Vector2 const apart = endOf(segment(j), 1 - side) - end;
-      if (j != i && segment(j).material == a.material && dot(apart, apart) <= near * near * a.cell_size * a.cell_size)
-        return j;
-    }
-    return -1;
+    InterfaceSegment const &a = segment(i), &b = segment(j);
+    Vector2 const apart = endOf(b, 1 - side) - endOf(a, side);
+    return b.material == a.material && dot(apart, apart) <= near * near * a.cell_size * a.cell_size;
   }
 
   /// The next segment along the outline, in the same cell or across a face; -1: none.
+  /// \param side 1: behind segment i, 0: before it.
   KOKKOS_INLINE_FUNCTION int next(int i, int side = 1) const
   {
     int const cell = segment(i).cell;
-    int found = nextIn(cell, i, side);
+    for (int j = i + 1; j < segments.count && segment(j).cell == cell; ++j)
+      if (follows(i, j, side))
+        return j;
+    for (int j = i - 1; j >= 0 && segment(j).cell == cell; --j)
+      if (follows(i, j, side))
+        return j;
     Quadrilateral const q = cellQuadrilateral(mesh, cell);
-    for (int k = 0; k < 4 && found < 0; ++k)
-      if (isOnFace(q, k, endOf(segment(i), side)) && mesh.face_neighbour(cell, k) >= 0)
-        found = nextIn(mesh.face_neighbour(cell, k) / 4, i, side);
-    return found;
+    Vector2 const end = endOf(segment(i), side);
+    for (int k = 0; k < 4; ++k)
+    {
+      int const beyond = isOnFace(q, k, end) ? mesh.face_neighbour(cell, k) : -1;
+      for (int j = beyond >= 0 ? segments.firstOf(beyond / 4) : segments.count;
+           j < segments.count && segment(j).cell == beyond / 4; ++j)
+        if (follows(i, j, side))
+          return j;
+    }
+    return -1;
   }
 
   /// How far the outline goes on straight from segment i to one side, that included, as far as it is asked. [cells]
