@@ -15,11 +15,6 @@ constexpr double longest_tip = 0.5;   // that is pressed flat [cells]
 constexpr double shortest_edge = 0.3; // of a corner, and face below it [cells]
 constexpr double most_overlap = 0.05; // of the corner with the face, where their cells miss each other [cells]
 
-KOKKOS_INLINE_FUNCTION Vector2 endOf(InterfaceSegment const &s, int end)
-{
-  return s.midpoint + ((end - 0.5) * s.length) * perpendicular(s.normal);
-}
-
 struct CornerFinder
 {
   Mesh mesh;
@@ -45,10 +40,7 @@ struct CornerFinder
     return s.face >= 0 && s.exposed < options.exposed_face;
   }
 
-  KOKKOS_INLINE_FUNCTION bool touches(int i) const
-  {
-    return hit(i).segment >= 0 && hit(i).gap <= touching_gap * segment(i).cell_size;
-  }
+  KOKKOS_INLINE_FUNCTION bool touchesAnother(int i) const { return touches(segment(i), hit(i)); }
 
   /// Whether segment j begins where segment i ends (side 1), or ends where it begins (0).
   KOKKOS_INLINE_FUNCTION bool follows(int i, int j, int side) const
@@ -118,7 +110,7 @@ struct CornerFinder
     constexpr double in_cell = 0.8, across = 0.6, most_turn = -0.87; // the last: corners of 30 degrees
     InterfaceSegment const &a = segment(i);
     CornerContact corner{-1, {i, -1}, -1, {0.0, 0.0}, 0.0, i};
-    if (!isSolid(a.material) || isStep(a) || touches(i))
+    if (!isSolid(a.material) || isStep(a) || touchesAnother(i))
       return corner;
     int after = next(i);
     double flat = 0.0;
@@ -127,7 +119,7 @@ struct CornerFinder
       InterfaceSegment const &s = segment(after);
       if (!isStep(s))
       {
-        if (!touches(after) || flat + s.length > longest_tip * a.cell_size)
+        if (!touchesAnother(after) || flat + s.length > longest_tip * a.cell_size)
           break;
         flat += s.length;
         if (corner.tip < 0 || s.length > segment(corner.tip).length)
@@ -135,7 +127,7 @@ struct CornerFinder
       }
       after = next(after);
     }
-    if (after < 0 || isStep(segment(after)) || touches(after))
+    if (after < 0 || isStep(segment(after)) || touchesAnother(after))
       return corner;
     InterfaceSegment const &b = segment(after);
     double const turn = dot(a.normal, b.normal);
@@ -244,11 +236,6 @@ void giveToFaces(int num_segments, CornerContacts &corners, WorkArrays const &wo
         c.of_edge(contact.edge[1], 0) = k;
         if (contact.tip >= 0)
           c.of_edge(contact.tip, 0) = k;
-      });
-  launchFor(
-      "Harmos::constrain::facesWithoutCorners", num_segments, KOKKOS_LAMBDA(int i) {
-        if (c.of_face(i) == c.count)
-          c.of_face(i) = -1;
       });
 }
 

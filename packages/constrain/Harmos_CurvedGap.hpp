@@ -113,6 +113,9 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
   return {fit.alpha[0], fit.gamma, miss <= most_miss * most_miss * length};
 }
 
+/// The squared chord of a cell at most, whose ends stand out of an arc by longest_chord_squared / (12 R). [cells^2]
+constexpr double longest_chord_squared = 2.0;
+
 /// \brief Void between two smooth sides that curve away from each other, at a point where their facets meet. [cells]
 ///
 /// The facet of a curved side is a chord, whose ends lie outside of the arc by L^2 / (12 R): two bodies share pieces of
@@ -126,7 +129,6 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
 KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegment const &at, int other,
                                         Vector2 const &n)
 {
-  constexpr double longest_squared = 2.0;                          // chord of a cell
   constexpr double apart = 1.0;                                    // most height of a facet [cells]
   double const h = at.cell_size, box = (SideArc::reach + 1.0) * h; // of midpoints
   SideFacets side[2];
@@ -144,17 +146,19 @@ KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegmen
                });
   SideArc const a = fitSide(side[0]), b = fitSide(side[1]);
   double const gap = b.height - a.height, opening = b.curvature - a.curvature;
-  return a.smooth && b.smooth && gap > 0.0 && gap <= opening * longest_squared / 12.0 ? gap : 0.0;
+  return a.smooth && b.smooth && gap > 0.0 && gap <= opening * longest_chord_squared / 12.0 ? gap : 0.0;
 }
 
 /// \brief Void between a corner and a smooth convex side, which its facets leave too little of: the gap to the facet at
-/// its foot, and what lies between the ends of a chord and the arc (fitSide).
+/// its foot, and what lies between the ends of a chord and the arc (fitSide). [length]
+///
+/// With the arc's height alpha below the corner and its curvature gamma, in cells h: -alpha h, where the side is smooth
+/// and that is more than the gap by at most -gamma h / 6, what the end of a chord stands out; else the gap as it is.
 ///
 /// \param face Segment at the foot. \param n Unit normal of its side there. \param gap To the facet. [length]
 KOKKOS_INLINE_FUNCTION double gapAboveArc(SegmentBins const &bins, InterfaceSegment const &face, Vector2 const &corner,
                                           Vector2 const &n, double gap)
 {
-  constexpr double longest_squared = 2.0; // chord of a cell
   double const h = face.cell_size, box = (SideArc::reach + 1.0) * h;
   SideFacets side;
   bins.forEach(corner - Vector2{box, box}, corner + Vector2{box, box},
@@ -167,7 +171,7 @@ KOKKOS_INLINE_FUNCTION double gapAboveArc(SegmentBins const &bins, InterfaceSegm
                });
   SideArc const arc = fitSide(side);
   double const beyond = -arc.height * h - gap;
-  return arc.smooth && beyond > 0.0 && beyond <= -arc.curvature * h * longest_squared / 12.0 ? gap + beyond : gap;
+  return arc.smooth && beyond > 0.0 && beyond <= -arc.curvature * h * longest_chord_squared / 12.0 ? gap + beyond : gap;
 }
 
 } // namespace Harmos

@@ -36,6 +36,12 @@ struct InterfaceSegment
   int parts;    // the piece that this is a part of is so many times as long
 };
 
+/// Ends of a segment: 0 before its midpoint along the outline of its region, which is counter-clockwise, 1 behind it.
+KOKKOS_INLINE_FUNCTION Vector2 endOf(InterfaceSegment const &s, int end)
+{
+  return s.midpoint + ((end - 0.5) * s.length) * perpendicular(s.normal);
+}
+
 /// Where the area of a segment balances. Axisymmetric: its ring's, s = L^2 r' / (12 r) beyond the midpoint; a uniform
 /// pressure over the ring then loads its nodes as ring shares lump their masses.
 KOKKOS_INLINE_FUNCTION Vector2 balancePoint(Geometry geometry, Vector2 const &midpoint, Vector2 const &direction,

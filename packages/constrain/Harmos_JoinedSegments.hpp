@@ -75,12 +75,6 @@ struct JoinedSegments
   }
 
 private:
-  /// Ends of a segment, 0 before and 1 after its midpoint along the outline.
-  static KOKKOS_INLINE_FUNCTION Vector2 endOf(InterfaceSegment const &s, int end)
-  {
-    return s.midpoint + ((end - 0.5) * s.length) * perpendicular(s.normal);
-  }
-
   KOKKOS_INLINE_FUNCTION bool isOnFaces(int cell, Vector2 const &x) const
   {
     Quadrilateral const q = cellQuadrilateral(mesh, cell);

@@ -18,13 +18,6 @@ struct PlannedTraction
   KOKKOS_INLINE_FUNCTION bool any() const { return along != 0.0 || across != 0.0; }
 };
 
-/// Whether the ray of segment i meets something that touches it.
-KOKKOS_INLINE_FUNCTION bool touches(RowBuilder const &builder, int i)
-{
-  RayHit const &hit = builder.hit(i);
-  return hit.segment >= 0 && hit.gap <= touching_gap * builder.segment(i).cell_size;
-}
-
 /// What bears the pressure of segment i, which touches nothing along its ray: what the nearest segment of its body
 /// touches, where that is as near as sides that touch. Thin void has short sides along which rays leave it: they are in
 /// balance with its other sides, which touch what lies across. Else, as across a crack in the body, what the ray meets.
@@ -38,7 +31,7 @@ KOKKOS_INLINE_FUNCTION RayHit hitBeside(RowBuilder const &builder, int i)
     for (int j = builder.segments.firstOf(cell); j < builder.segments.count && builder.segment(j).cell == cell; ++j)
     {
       InterfaceSegment const &b = builder.segment(j);
-      if (b.material != a.material || !touches(builder, j) || dot(a.normal, b.normal) < -facing_cosine)
+      if (b.material != a.material || !touches(b, builder.hit(j)) || dot(a.normal, b.normal) < -facing_cosine)
         continue;
       Vector2 const tangent = perpendicular(b.normal), apart = a.midpoint - b.midpoint;
       double const along = Math::clamp(dot(apart, tangent), -0.5 * b.length, 0.5 * b.length);
@@ -263,8 +256,8 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
   View<RayHit *> const hit = work.unset<RayHit *>("Harmos::constrain::pressed_on", count);
   launchFor(
       "Harmos::constrain::findPressedOn", count, KOKKOS_LAMBDA(int i) {
-        bool const alone =
-            builder.bearing.isPressed(builder.segment(i)) && planned(i).count == 0 && !touches(builder, i);
+        bool const alone = builder.bearing.isPressed(builder.segment(i)) && planned(i).count == 0 &&
+                           !touches(builder.segment(i), builder.hit(i));
         hit(i) = alone ? hitBeside(builder, i) : builder.hit(i);
       });
   TractionFinder const finder{builder, planned, hit, {builder.mesh, builder.pairs, pressure}};

@@ -27,6 +27,12 @@ struct RayHit
   double cosine; // of the ray with the reversed normal of the segment that it meets
 };
 
+/// Whether the ray of a segment meets something that touches it.
+KOKKOS_INLINE_FUNCTION bool touches(InterfaceSegment const &s, RayHit const &hit)
+{
+  return hit.segment >= 0 && hit.gap <= touching_gap * s.cell_size;
+}
+
 /// Distance along a ray at which it crosses a facing segment, with a small tolerance at the segment's ends.
 /// \return False when it does not cross, or the segment does not face it.
 /// \param target An InterfaceSegment or a BinnedSegment.
