@@ -18,6 +18,9 @@ struct BodyTable
   bool outlined = false;       // contact between rigid bodies, and with walls, has its rows from their outlines
   RigidSurfaces surfaces = {}; // at the present pose; none where the outlines are not known
 
+  /// Number of the body of a material; -1: deformable, -2: a wall (material -1).
+  KOKKOS_INLINE_FUNCTION int of(int material) const { return material < 0 ? -2 : of_material(material); }
+
   /// Fixed and prescribed bodies, and walls: what no impulse moves.
   KOKKOS_INLINE_FUNCTION bool driven(int number) const
   {

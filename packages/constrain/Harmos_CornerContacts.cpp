@@ -2,6 +2,7 @@
 #include <Harmos_CornerContacts.hpp>
 #include <Harmos_JoinedSegments.hpp>
 #include <Harmos_PlannedRows.hpp>
+#include <Harmos_SideMotion.hpp>
 
 namespace Harmos
 {
@@ -11,7 +12,7 @@ namespace
 
 constexpr double least_rise = 0.05;   // sine of the angle between face and edge
 constexpr double lies_flat = 0.95;    // cosine of that between face and tip
-constexpr double longest_tip = 0.5;   // that is pressed flat [cells]
+constexpr double longest_tip = 0.5;   // that is pressed [cells]
 constexpr double shortest_edge = 0.3; // of a corner, and face below it [cells]
 constexpr double most_overlap = 0.05; // of the corner with the face, where their cells miss each other [cells]
 
@@ -29,10 +30,7 @@ struct CornerFinder
   Motion before;
   double dt;
 
-  KOKKOS_INLINE_FUNCTION bool isSolid(int material) const
-  {
-    return material >= 0 && bodies.of_material(material) == -1 && !bearing.presses(material);
-  }
+  KOKKOS_INLINE_FUNCTION bool isSolid(int material) const { return material >= 0 && !bearing.presses(material); }
 
   /// Whether a segment is a step between the lines of two cells rather than an edge of its body.
   KOKKOS_INLINE_FUNCTION bool isStep(InterfaceSegment const &s) const
@@ -102,32 +100,57 @@ struct CornerFinder
     return straightLength(f, 0, shortest_edge) + straightLength(f, 1, shortest_edge) - length >= shortest_edge;
   }
 
+  /// The next segment behind i along the outline that is no step; -1: none.
+  KOKKOS_INLINE_FUNCTION int nextEdge(int i) const
+  {
+    constexpr int most_pieces = 6;
+    int at = next(i);
+    for (int pieces = 0; pieces < most_pieces && at >= 0 && isStep(segment(at)); ++pieces)
+      at = next(at);
+    return at;
+  }
+
+  /// visit(j) for what touches another body behind segment i, up to the next edge, which touches nothing.
+  /// \return That edge; -1: there is none, or what touches is longer than a tip.
+  template <class Visitor>
+  KOKKOS_INLINE_FUNCTION int behindTip(int i, Visitor const &visit) const
+  {
+    constexpr int most_pieces = 6;
+    double length = 0.0;
+    int after = nextEdge(i);
+    for (int pieces = 0; pieces < most_pieces && after >= 0 && after != i && touchesAnother(after); ++pieces)
+    {
+      length += segment(after).length;
+      if (length > longest_tip * segment(i).cell_size)
+        return -1;
+      visit(after);
+      after = nextEdge(after);
+    }
+    return after < 0 || after == i || isStep(segment(after)) || touchesAnother(after) ? -1 : after;
+  }
+
+  /// Where the lines of two edges meet.
+  static KOKKOS_INLINE_FUNCTION Vector2 crossingOf(InterfaceSegment const &a, InterfaceSegment const &b)
+  {
+    Vector2 const along = perpendicular(a.normal);
+    return endOf(a, 1) + (dot(b.normal, endOf(b, 0) - endOf(a, 1)) / dot(b.normal, along)) * along;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return bodies.of(material) >= 0; }
+
   /// The corner that segment i leads to, without its face; without segment behind it where there is none.
   KOKKOS_INLINE_FUNCTION CornerContact cornerBehind(int i) const
   {
-    constexpr int most_pieces = 6;
     // Cosines of the turn; chords of discs of three cells' radius turn by less from cell to cell.
     constexpr double in_cell = 0.8, across = 0.6, most_turn = -0.87; // the last: corners of 30 degrees
     InterfaceSegment const &a = segment(i);
-    CornerContact corner{-1, {i, -1}, -1, {0.0, 0.0}, 0.0, i};
+    CornerContact corner{-1, {i, -1}, -1, -1, i, {0.0, 0.0}, {0.0, 0.0}, 0.0};
     if (!isSolid(a.material) || isStep(a) || touchesAnother(i))
       return corner;
-    int after = next(i);
-    double flat = 0.0;
-    for (int pieces = 0; pieces < most_pieces && after >= 0 && after != i; ++pieces)
-    {
-      InterfaceSegment const &s = segment(after);
-      if (!isStep(s))
-      {
-        if (!touchesAnother(after) || flat + s.length > longest_tip * a.cell_size)
-          break;
-        flat += s.length;
-        if (corner.tip < 0 || s.length > segment(corner.tip).length)
-          corner.tip = after;
-      }
-      after = next(after);
-    }
-    if (after < 0 || isStep(segment(after)) || touchesAnother(after))
+    int longest = -1;
+    int const after = behindTip(
+        i, [&](int j) { longest = longest < 0 || segment(j).length > segment(longest).length ? j : longest; });
+    if (after < 0)
       return corner;
     InterfaceSegment const &b = segment(after);
     double const turn = dot(a.normal, b.normal);
@@ -136,8 +159,12 @@ struct CornerFinder
     if (straightLength(i, 0, shortest_edge) < shortest_edge || straightLength(after, 1, shortest_edge) < shortest_edge)
       return corner;
     corner.edge[1] = after;
-    corner.segment = corner.tip >= 0 ? corner.tip : b.length > a.length ? after : i;
-    corner.foot = corner.tip < 0 ? 0.5 * (endOf(a, 1) + endOf(b, 0)) : segment(corner.tip).midpoint;
+    corner.segment = b.length > a.length ? after : i;
+    corner.foot = 0.5 * (endOf(a, 1) + endOf(b, 0));
+    if (longest < 0)
+      return corner;
+    corner.tip = corner.segment = longest;
+    corner.foot = isRigid(a.material) ? crossingOf(a, b) : segment(longest).midpoint;
     return corner;
   }
 
@@ -145,97 +172,124 @@ struct CornerFinder
   KOKKOS_INLINE_FUNCTION bool mayBear(int f, int material) const
   {
     InterfaceSegment const &face = segment(f);
-    return isSolid(face.material) && face.material != material && !isStep(face) &&
-           options.interaction(face.material, material).kind != Interaction::Bonded &&
+    if (face.material == material || isStep(face) || (bodies.of(face.material) != -1 && isRigid(material)))
+      return false;
+    if (face.material < 0)
+      return true;
+    return isSolid(face.material) && options.interaction(face.material, material).kind != Interaction::Bonded &&
            (hit(f).segment < 0 || segment(hit(f).segment).material == material);
   }
 
-  /// Velocity of the material of a segment at a point of its cell, at v^{n-1/2}.
-  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(InterfaceSegment const &s, Vector2 const &point) const
-  {
-    double weight[4];
-    shapeFunctionsAt(cellQuadrilateral(mesh, s.cell), point, weight);
-    Vector2 v{0.0, 0.0};
-    for (int k = 0; k < 4; ++k)
-    {
-      int const dof = pairs.dof_node(s.pair, k);
-      v += weight[k] * Vector2{before.velocity(dof, 0), before.velocity(dof, 1)};
-    }
-    return v;
-  }
+  KOKKOS_INLINE_FUNCTION SideMotion motionOf(int i) const { return sideMotion(mesh, pairs, before, segment(i)); }
 
   /// Whether a corner comes so fast that facets are to be held by two rows (most_approach).
   KOKKOS_INLINE_FUNCTION bool comesFast(CornerContact const &contact) const
   {
     if (!(dt > 0.0))
       return false;
-    InterfaceSegment const &face = segment(contact.face), &s = segment(contact.segment);
-    Vector2 const apart = velocityAt(face, contact.foot) - velocityAt(s, contact.foot + contact.gap * face.normal);
-    return dt * norm(apart) > most_approach * face.cell_size;
+    Vector2 const corner = contact.foot + contact.gap * contact.normal;
+    Vector2 const apart = motionOf(contact.face).at(contact.foot) - motionOf(contact.segment).at(corner);
+    return dt * norm(apart) > most_approach * segment(contact.face).cell_size;
   }
 
-  /// Give a corner the nearest face below it, within one cell size.
+  /// The normal of face f at a point of it.
+  KOKKOS_INLINE_FUNCTION Vector2 normalAt(int f, Vector2 const &foot) const
+  {
+    InterfaceSegment const &face = segment(f);
+    if (face.material < 0)
+      return face.normal;
+    Vector2 n{0.0, 0.0};
+    if (isRigid(face.material))
+      n = bodies.surfaces.normalAt(bodies.of(face.material), face.midpoint, face.normal, face.cell_size, foot);
+    return n[0] == 0.0 && n[1] == 0.0 ? sideNormal(bins, face, foot) : n;
+  }
+
+  /// Give a corner the nearest face below it, within one cell size. Where a rigid one has made a dent that is the face
+  /// beside it, and the row stands in the dent.
   KOKKOS_INLINE_FUNCTION void findFace(CornerContact &contact) const
   {
     InterfaceSegment const &a = segment(contact.edge[0]);
     Vector2 const corner = contact.foot, back = -perpendicular(a.normal);
     Vector2 const on = perpendicular(segment(contact.edge[1]).normal);
     double const h = a.cell_size, reach = h + 0.5 * bins.size;
+    bool const dents = contact.tip >= 0 && isRigid(a.material);
+    double const beside = dents ? h : 1e-7 * h, deepest = dents ? longest_tip : most_overlap;
     double nearest = h;
     bins.forEach(corner - Vector2{reach, reach}, corner + Vector2{reach, reach},
                  [&](int, BinnedSegment const &s)
                  {
                    if (dot(back, s.normal) < least_rise || dot(on, s.normal) < least_rise ||
-                       (contact.tip >= 0 && dot(segment(contact.tip).normal, s.normal) > -lies_flat))
+                       (contact.tip >= 0 && !dents && dot(segment(contact.tip).normal, s.normal) > -lies_flat))
                      return;
                    Vector2 const apart = corner - s.midpoint;
                    double const gap = dot(apart, s.normal), along = dot(apart, perpendicular(s.normal));
-                   if (!(Math::fabs(gap) < nearest) || gap < -most_overlap * h ||
-                       Math::fabs(along) > 0.5 * s.length + 1e-7 * h || !mayBear(s.segment, a.material))
+                   double const beyond = Math::max(Math::fabs(along) - 0.5 * s.length, 0.0);
+                   if (!(Math::fabs(gap) + beyond < nearest) || gap < -deepest * h || beyond > beside ||
+                       !mayBear(s.segment, a.material))
                      return;
-                   nearest = Math::fabs(gap);
+                   nearest = Math::fabs(gap) + beyond;
                    contact.face = s.segment;
                    contact.foot = s.midpoint + along * perpendicular(s.normal);
                    contact.gap = Math::max(gap, 0.0);
                  });
-    if (contact.face >= 0 && (!isPieceOfFace(contact.face) || comesFast(contact)))
+    if (contact.face < 0)
+      return;
+    contact.normal = normalAt(contact.face, contact.foot);
+    bool bears = isPieceOfFace(contact.face);
+    if (dents)
+    {
+      int const dented = hit(contact.tip).segment;
+      bears = bears && segment(dented).material == segment(contact.face).material;
+      contact.face = dented;
+      contact.foot = corner;
+      contact.gap = 0.0;
+    }
+    if (!bears || comesFast(contact))
       contact.face = -1;
+    contact.carrier = contact.face;
+    if (contact.face >= 0 && segment(contact.face).material < 0)
+      contact.carrier = contact.segment = contact.tip >= 0 ? contact.tip : contact.edge[0];
   }
 };
 
-/// The contacts that faces bear: of several above one the nearest, of these the first.
-void giveToFaces(int num_segments, CornerContacts &corners, WorkArrays const &work)
+/// The contacts that segments carry: of several above one face the nearest, of these the first.
+void giveToCarriers(CornerFinder const &finder, CornerContacts &corners, WorkArrays const &work)
 {
+  int const num_segments = finder.segments.count;
   View<double *> const least = work.unset<double *>("Harmos::constrain::corner_gap", num_segments);
-  corners.of_face = work.unset<int *>("Harmos::constrain::corner_of_face", num_segments);
+  corners.of_carrier = work.unset<int *>("Harmos::constrain::corner_of_carrier", num_segments);
   corners.of_edge = work.unset<int *[2]>("Harmos::constrain::corner_of_edge", num_segments);
   CornerContacts const c = corners;
   launchFor(
       "Harmos::constrain::noCorners", num_segments, KOKKOS_LAMBDA(int i) {
         least(i) = 1e300;
-        c.of_face(i) = c.count;
+        c.of_carrier(i) = c.count;
         c.of_edge(i, 0) = c.of_edge(i, 1) = -1;
       });
   launchFor(
       "Harmos::constrain::nearestCorners", c.count, KOKKOS_LAMBDA(int k) {
         if (c.contact(k).face >= 0)
-          Kokkos::atomic_fetch_min(&least(c.contact(k).face), c.contact(k).gap);
+          Kokkos::atomic_fetch_min(&least(c.contact(k).carrier), c.contact(k).gap);
       });
   launchFor(
-      "Harmos::constrain::cornersOfFaces", c.count, KOKKOS_LAMBDA(int k) {
-        int const face = c.contact(k).face;
-        if (face >= 0 && c.contact(k).gap == least(face))
-          Kokkos::atomic_fetch_min(&c.of_face(face), k);
+      "Harmos::constrain::cornersOfCarriers", c.count, KOKKOS_LAMBDA(int k) {
+        CornerContact const &contact = c.contact(k);
+        if (contact.face >= 0 && contact.gap == least(contact.carrier))
+          Kokkos::atomic_fetch_min(&c.of_carrier(contact.carrier), k);
       });
   launchFor(
       "Harmos::constrain::cornersOfEdges", c.count, KOKKOS_LAMBDA(int k) {
         CornerContact const &contact = c.contact(k);
-        if (contact.face < 0 || c.of_face(contact.face) != k)
+        if (contact.face < 0 || c.of_carrier(contact.carrier) != k)
           return;
         c.of_edge(contact.edge[0], 1) = k;
         c.of_edge(contact.edge[1], 0) = k;
-        if (contact.tip >= 0)
-          c.of_edge(contact.tip, 0) = k;
+        finder.behindTip(contact.edge[0],
+                         [&](int j)
+                         {
+                           if (j == contact.tip || finder.isRigid(finder.segment(j).material))
+                             c.of_edge(j, 0) = k;
+                         });
       });
 }
 
@@ -268,7 +322,7 @@ CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pai
         contact(k) = finder.cornerBehind(leading(k));
         finder.findFace(contact(k));
       });
-  giveToFaces(segments.count, corners, work);
+  giveToCarriers(finder, corners, work);
   return corners;
 }
 

@@ -9,31 +9,34 @@
 namespace Harmos
 {
 
-/// A convex corner of one body and the segment of another one below it.
+/// A convex corner of one body and the segment of another one, or of a contact wall, below it.
 struct CornerContact
 {
-  int face;     // segment; -1: none
-  int edge[2];  // the segments before and after the corner along its outline
-  int tip;      // the short one between them that is pressed flat; -1: none
-  Vector2 foot; // of the corner on the face
-  double gap;   // from the foot to the corner along the face's normal, >= 0
-  int segment;  // whose pair moves the corner: the tip, or the longer edge
+  int face;       // segment; -1: none
+  int edge[2];    // the segments before and after the corner along its outline
+  int tip;        // that of the short ones between them, which touch the face, at which the corner is; -1: none
+  int carrier;    // the segment whose row it is: the face, at a wall the corner's own
+  int segment;    // whose pair moves the corner: the tip, or the longer edge
+  Vector2 foot;   // of the corner on the face
+  Vector2 normal; // unit; of the face at the foot
+  double gap;     // from the foot to the corner along the face's normal, >= 0
 };
 
-/// \brief Corners of deformable solids that stand above faces of others.
+/// \brief Corners of solids that stand above faces of others, or of contact walls; one of the two deforms.
 ///
 /// Where both edges of a corner rise from a face the corner alone touches it: one row stands at its foot, with the
-/// normal of the face (sideNormal), in the place of the rows of the face's segment and of both edges. Their rays start
-/// in the middle of facets, a quarter of a cell beside the corner, and their normals are the means of face and edge.
+/// normal of the face (that of a rigid body's outline, or of the wall; else sideNormal), in the place of the rows of
+/// the face's segment, of both edges and of what is pressed between them. Their rays start in the middle of facets, a
+/// quarter of a cell beside the corner, and their normals are the means of face and edge, or the edge of a rigid body.
 struct CornerContacts
 {
   int count = 0;
   View<CornerContact *> contact;
-  View<int *> of_face;    // segments: the contact that each bears, `count`: none; extent 0: there is no corner
+  View<int *> of_carrier; // segments: the contact whose row each carries, `count`: none; extent 0: there is no corner
   View<int *[2]> of_edge; // segments: the contacts of the corners at their ends
 
-  /// The contact that segment i bears; -1: none.
-  KOKKOS_INLINE_FUNCTION int borneBy(int i) const { return count > 0 && of_face(i) < count ? of_face(i) : -1; }
+  /// The contact whose row segment i carries; -1: none.
+  KOKKOS_INLINE_FUNCTION int carriedBy(int i) const { return count > 0 && of_carrier(i) < count ? of_carrier(i) : -1; }
 
   /// Whether segment i ends in a corner that a face of the material bears.
   KOKKOS_INLINE_FUNCTION bool isBorne(View<InterfaceSegment *> const &segment, int i, int material) const
@@ -45,10 +48,11 @@ struct CornerContacts
   }
 };
 
-/// The corners above faces, within one cell: between two deformable solids that are not bonded, which pass each other
-/// by at most 0.02 cells in the step. Edges and face are 0.3 cells long at least, edges touch nothing, the outline
-/// turns by 37 to 150 degrees (from 53 on where the edges are in two cells), a tip between them is at most 0.5 cells
-/// long.
+/// The corners above faces, within one cell: between two solids that are not bonded, one of them deformable, or a
+/// deformable one and a contact wall, which pass each other by at most 0.02 cells in the step. Edges and face are 0.3
+/// cells long at least, edges touch nothing, the outline turns by 37 to 150 degrees (from 53 on where the edges are in
+/// two cells), what touches between them is at most 0.5 cells long: of a deformable corner the tip that is pressed
+/// flat, of a rigid one the sides of the dent that it makes.
 ///
 /// \param before v^{n-1/2} \param dt Of the step [s]; 0: no motion is known.
 /// \param hit Of the segments' rays: a face whose ray meets a third body bears no corner.

@@ -12,6 +12,7 @@
 #include <Harmos_JoinedSegments.hpp>
 #include <Harmos_PlannedRows.hpp>
 #include <Harmos_SegmentBearing.hpp>
+#include <Harmos_SideMotion.hpp>
 
 namespace Harmos
 {
@@ -36,7 +37,7 @@ struct RowBuilder
   double dt;
   CornerContacts corners = {};
 
-  KOKKOS_INLINE_FUNCTION int bodyOf(int material) const { return material < 0 ? -2 : bodies.of_material(material); }
+  KOKKOS_INLINE_FUNCTION int bodyOf(int material) const { return bodies.of(material); }
 
   KOKKOS_INLINE_FUNCTION bool isSlave(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
@@ -58,7 +59,7 @@ struct RowBuilder
   {
     if (!(dt > 0.0))
       return false;
-    Vector2 const apart = dt * (velocityAt(motionOf(a), a.midpoint) - velocityAt(motionOf(b), a.midpoint));
+    Vector2 const apart = dt * (motionOf(a).at(a.midpoint) - motionOf(b).at(a.midpoint));
     double const least = most_approach * a.cell_size;
     return dot(apart, apart) > least * least;
   }
@@ -89,7 +90,8 @@ struct RowBuilder
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
     if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
-        meetByOutline(a, b) || corners.isBorne(segment, i, b.material))
+        meetByOutline(a, b) || corners.isBorne(segment, i, b.material) ||
+        (touches(a, hit(i)) && corners.isBorne(segment, hit(i).segment, a.material)))
       return false;
     return b.material < 0 || haveOwnNodes(a);
   }
@@ -127,48 +129,16 @@ struct RowBuilder
     return pressed ? a.normal : Vector2{0.0, 0.0};
   }
 
-  /// The motion of the material of a segment, at v^{n-1/2}.
-  struct SideMotion
-  {
-    int body;
-    Quadrilateral cell; // of deformable ones, with the velocities of its corners
-    Vector2 velocity[4];
-  };
-
   KOKKOS_INLINE_FUNCTION SideMotion motionOf(InterfaceSegment const &s) const
   {
-    SideMotion motion;
-    motion.body = bodyOf(s.material);
-    if (motion.body != -1)
-      return motion;
-    motion.cell = cellQuadrilateral(mesh, s.cell);
-    for (int k = 0; k < 4; ++k)
-    {
-      int const dof = pairs.dof_node(s.pair, k);
-      motion.velocity[k] = {before.velocity(dof, 0), before.velocity(dof, 1)};
-    }
-    return motion;
-  }
-
-  KOKKOS_INLINE_FUNCTION Vector2 velocityAt(SideMotion const &motion, Vector2 const &point) const
-  {
-    if (motion.body >= 0)
-      return before.bodies.body(motion.body).velocityAt(point);
-    Vector2 v{0.0, 0.0};
-    if (motion.body == -2)
-      return v;
-    double weight[4];
-    shapeFunctionsAt(motion.cell, point, weight);
-    for (int k = 0; k < 4; ++k)
-      v += weight[k] * motion.velocity[k];
-    return v;
+    return sideMotion(mesh, pairs, before, s);
   }
 
   /// Speed at which a point of side a approaches the point of side b that lies `gap` away along a's normal.
-  KOKKOS_INLINE_FUNCTION double closing(SideMotion const &a, SideMotion const &b, Vector2 const &normal,
-                                        Vector2 const &point, double gap) const
+  static KOKKOS_INLINE_FUNCTION double closing(SideMotion const &a, SideMotion const &b, Vector2 const &normal,
+                                               Vector2 const &point, double gap)
   {
-    return dot(normal, velocityAt(a, point) - velocityAt(b, point + gap * normal));
+    return dot(normal, a.at(point) - b.at(point + gap * normal));
   }
 
   /// Bound of closing() for deformable sides and points within 1.5 cells of their cells: the absolute values of shape
@@ -252,7 +222,7 @@ struct RowBuilder
   {
     rows.count = 0;
     rows.joined = false;
-    rows.corner = corners.borneBy(i);
+    rows.corner = corners.carriedBy(i);
     if (rows.corner >= 0)
       return planCorner(i, rows);
     if (!mayCarryRow(i))
@@ -270,19 +240,21 @@ struct RowBuilder
       planAlong(line.whole, to, i, rows);
   }
 
-  /// The row of the corner that stands on segment i.
+  /// The row of a corner and a face, which segment i carries.
   KOKKOS_INLINE_FUNCTION void planCorner(int i, PlannedRows &rows) const
   {
     InterfaceSegment const &a = segment(i);
-    if (mesh.cell_depth(a.cell) != 0 || !haveOwnNodes(a))
-      return;
     CornerContact const &contact = corners.contact(rows.corner);
+    InterfaceSegment const &face = segment(contact.face);
+    if (mesh.cell_depth(a.cell) != 0 || (face.material >= 0 && !haveOwnNodes(a)))
+      return;
     rows.count = 1;
-    Vector2 const n = sideNormal(bins, a, contact.foot);
-    Vector2 const corner = contact.foot + contact.gap * a.normal;
-    rows.normal[0] = n;
-    rows.hit[0] = {contact.segment, gapAboveArc(bins, a, corner, n, contact.gap),
-                   -dot(a.normal, segment(contact.segment).normal)};
+    bool const at_wall = face.material < 0;
+    Vector2 const &n = contact.normal, corner = contact.foot + contact.gap * n;
+    rows.normal[0] = at_wall ? -n : n;
+    rows.hit[0] = {at_wall ? contact.face : contact.segment,
+                   at_wall ? contact.gap : gapAboveArc(bins, face, corner, n, contact.gap),
+                   -dot(face.normal, segment(contact.segment).normal)};
   }
 
   /// The rows of segment i along `a`: the segment, or the line that it is a piece of.
@@ -467,8 +439,13 @@ struct RowBuilder
     JoinedSegments::Line line;
     InterfaceSegment const &whole = rows.joined && joinedSegments().find(i, line) ? line.whole : segment(i);
     InterfaceSegment a = rows.count == 2 ? halfOf(whole, half) : whole;
+    Vector2 across = a.normal;
     if (rows.corner >= 0)
-      a.point = corners.contact(rows.corner).foot;
+    {
+      CornerContact const &contact = corners.contact(rows.corner);
+      a.point = contact.foot + (i == contact.face ? 0.0 : contact.gap) * contact.normal;
+      across = rows.normal[0];
+    }
     InterfaceSegment const &b = segment(rows.hit[half].segment);
     ContactRow row = {};
     row.key = mesh.cell_global(a.cell) * max_cell_rows + 2 * a.number + half;
@@ -486,7 +463,7 @@ struct RowBuilder
     Traction traction = rows.corner < 0 ? tractionOf(a, b) : Traction{a.point, {0.0, 0.0}, 0.0, {0.0, 0.0}};
     row.length *= 1.0 + 0.5 * (traction.share[0] + traction.share[1]);
     fillSide(a, traction, row.body_a, row.dof_a, row.weight_a);
-    traction.middle += row.gap * a.normal;
+    traction.middle += row.gap * across;
     fillSide(b, traction, row.body_b, row.dof_b, row.weight_b);
     return row;
   }

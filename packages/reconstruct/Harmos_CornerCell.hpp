@@ -20,6 +20,12 @@ KOKKOS_INLINE_FUNCTION double straightMisfit(ReconstructionField const &field, C
   return Detail::lineMisfit(problem, normal).value;
 }
 
+/// Whether a cell lacks some of the eight cells around it.
+KOKKOS_INLINE_FUNCTION bool isAtBoundary(ReconstructionField const &field, int cell)
+{
+  return field.mesh.cell_neighbour.offset(cell + 1) - field.mesh.cell_neighbour.offset(cell) != 8;
+}
+
 /// Whether a body's matter has flowed in a cell.
 KOKKOS_INLINE_FUNCTION bool hasFlowed(ReconstructionField const &field, CellComponents const &components, int body)
 {
@@ -51,33 +57,37 @@ KOKKOS_INLINE_FUNCTION bool mayHaveStraightEdges(ReconstructionField const &fiel
 /// ended nowhere, most of them in such matter, half of them in fragments.)
 ///
 /// \param normal Of the straight line; leaves the body.
-/// \param poor_misfit That of the straight line (straightMisfit) from which on it is looked for a corner.
+/// \param poor_misfit That of the straight line (straightMisfit) from which on it is looked for a corner; at the
+///                    boundary a tenth.
 /// \param thorough Of a body drawn alone, whose matter has not flowed: look also where the neighbours hardly miss the
 ///                 straight line, search to the end, and take tips at 1e-4 of the straight line's error.
-/// \param bends Whether what presses the corner may bend its edges: an error of 1e-4 will do then.
+/// \param bends Whether what presses the corner may bend its edges: an error of 1e-3 will do then.
 HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
                                                  int body, Region const &polygon, Plane2 const *rim,
                                                  Vector2 const &normal, bool thorough, double poor_misfit = 1e-2,
                                                  bool bends = false)
 {
   double const hopeful = thorough ? 1e300 : 1e-3;
-  constexpr double misfit_weight = 0.1, least_miss = 1e-9, near_exact = 1e-6, near_bent = 1e-4;
+  constexpr double misfit_weight = 0.1, least_miss = 1e-9, near_exact = 1e-6, near_tip = 1e-4, near_bent = 1e-3;
   constexpr double quarter = 0.7853981633974483; // of pi
   constexpr int starts = 7, most_searches = 3;
   constexpr double centroid_first = 1e-3;
+  constexpr double at_boundary = 0.1; // where cells are missing that would tell a tip before the boundary
   double const volume = components.volume[body], open = components.volume[components.count - 1];
   double const smaller = Math::min(volume, open);
   PartBehind const straight = partBehind(polygon, normal, volume, open, components.weight);
   Vector2 const miss = components.firstMiss(straight.inside, body);
   if (!(norm(miss) > least_miss * smaller) || dot(miss, normal) > 0.0 ||
-      (!thorough && !(straightMisfit(field, components, body, polygon, normal) > poor_misfit)))
+      (!thorough && !(straightMisfit(field, components, body, polygon, normal) >
+                      (isAtBoundary(field, components.cell) ? at_boundary : 1.0) * poor_misfit)))
     return {};
   CornerProblem problem(field, components, body, polygon, rim, misfit_weight);
   if (!problem.around.isTold())
     return {};
   CornerCell one_line;
   problem.measure(straight.inside, &straight.line, 1, one_line);
-  double const exact = (bends || (thorough && volume < film_volume) ? near_bent : near_exact) * one_line.error;
+  double const near = bends ? near_bent : thorough && volume < film_volume ? near_tip : near_exact;
+  double const exact = near * one_line.error;
   double const angle = Math::atan2(normal[1], normal[0]);
   // Where the first line goes through the body's middle, what it leaves void.
   auto const openBeyond = [&](double of_angle)

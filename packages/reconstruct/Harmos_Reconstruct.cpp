@@ -4,6 +4,7 @@
 #include <Harmos_ApartPlan.hpp>
 #include <Harmos_BodyFirstPlan.hpp>
 #include <Harmos_CornerCell.hpp>
+#include <Harmos_DentedPlan.hpp>
 #include <Harmos_PartedPlan.hpp>
 #include <Harmos_ThreeBodyPlan.hpp>
 
@@ -51,9 +52,10 @@ HARMOS_LARGE_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, 
     int order[max_components];
     givenOrder(components, options.order, order);
     RemovalPlan const plan = fixedPlan(field, components, options.method, slivers, order);
-    return options.method == ReconstructionMethod::MomentOfFluid && options.order.extent(0) == 0
-               ? cornerPlan(field, components, slivers, plan)
-               : plan;
+    if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0)
+      return plan;
+    RemovalPlan const dented = dentedPlan(field, components, slivers, plan);
+    return dented.dented ? dented : cornerPlan(field, components, slivers, plan);
   }
   if (components.count > max_exhaustive_components)
     return greedyPlan(field, components, slivers);
@@ -61,6 +63,9 @@ HARMOS_LARGE_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, 
   RemovalPlan const corner = cornerPlan(field, components, slivers, sequence);
   if (corner.corner)
     return corner;
+  RemovalPlan const dented = dentedPlan(field, components, slivers, sequence);
+  if (dented.dented)
+    return dented;
   RemovalPlan const apart = apartPlan(field, components, slivers, sequence);
   if (apart.apart)
     return apart;
@@ -150,6 +155,14 @@ HARMOS_LARGE_FUNCTION CellStatus writeRegions(CellComponents const &components, 
   {
     for (int k = 0; k < num_pairs; ++k)
       write(regionAlone(components, plan, k), k);
+    forgetCuts();
+    return status;
+  }
+  if (plan.dented)
+  {
+    DentedCell const cell = dentedCell(components, plan);
+    write(cell.corner, plan.component[0]);
+    write(cell.around, plan.component[1]);
     forgetCuts();
     return status;
   }

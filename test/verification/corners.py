@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Corners of deformable squares on faces of blocks: nothing is felt through void, and what acts is along the face's normal."""
+"""Corners of squares on faces of blocks, one or the other rigid or none, and on walls: nothing is felt through void, and what acts is along the face's normal."""
 from math import cos, hypot, radians, sin, sqrt
 from random import Random
 
@@ -18,8 +18,8 @@ class Scene:
         self.along, self.normal = (cos(a), sin(a)), (-sin(a), cos(a))
         self.middle = tuple(0.3 + random.random() * H for _ in range(2))
 
-    def run(self, along, gap, velocity, end_time):
-        """`along`, `gap`: of the corner in cells; `velocity`: of the square, along the face and up."""
+    def run(self, along, gap, velocity, end_time, rigid=None):
+        """`along`, `gap`: of the corner in cells; `velocity`: of the square, along the face and up; `rigid`: a body."""
         u, n, half = self.along, self.normal, 0.05
         t = radians(self.angle + self.lean)
         corners = [(p * cos(t) - q * sin(t), p * sin(t) + q * cos(t)) for p in (-half, half) for q in (-half, half)]
@@ -30,33 +30,40 @@ class Scene:
         side, outflow = "{from: 0.0, to: 0.6, cells: 60}", "{type: outflow}"
         return harmos(ROOT / "test/verification/decks/gaps.yaml", {
             "mesh": f"{{x: {side}, y: {side}}}", "boundaries/bottom": outflow, "boundaries/top": outflow, "output/fields/every_time": 0.0, "run/end_time": end_time,
-            "bodies": f"{{one: {{material: steel, shape: rectangle, center: {block!r}, size: [0.2, 0.1], angle: {self.angle!r}}}, "
-                      f"two: {{material: steel, shape: rectangle, center: {square!r}, size: [0.1, 0.1], angle: {self.angle + self.lean!r}, velocity: {v!r}}}}}"})
+            "materials/hard": "{eos: rigid, density: 7800.0}",
+            "bodies": f"{{one: {{{self.material('one', rigid)}, shape: rectangle, center: {block!r}, size: [0.2, 0.1], angle: {self.angle!r}}}, "
+                      f"two: {{{self.material('two', rigid)}, shape: rectangle, center: {square!r}, size: [0.1, 0.1], angle: {self.angle + self.lean!r}, velocity: {v!r}}}}}"})
+
+    @staticmethod
+    def material(name, rigid):
+        return "material: steel" if name != rigid else "material: hard, motion: " + ("fixed" if name == "one" else "free")
 
 
 # With the means of face and edge for normals 10 of 60 felt 2e-5 to 5e-4 of the momentum, for a cycle each.
 def test_a_corner_that_slides_along_a_face_feels_nothing():
-    random = Random(12)
-    for gap in (0.003, 0.001):
-        felt = 0
-        for _ in range(16):
-            r = Scene(random, (5.0, 85.0)).run(random.uniform(-3.0, 3.0), gap, (200.0, 0.0), 1.2e-4)
+    for rigid, gap, squares in ((None, 0.003, 16), (None, 0.001, 16), ("one", 0.001, 8), ("two", 0.001, 8)):
+        random, felt = Random(12), 0
+        for _ in range(squares):
+            r = Scene(random, (5.0, 85.0)).run(random.uniform(-3.0, 3.0), gap, (200.0, 0.0), 1.2e-4, rigid)
             felt += len(read_columns(r.directory / "contact.csv")["time"]) > 0
             clean(r)
-        check(f"{gap} cells above it, squares of 16 that feel the block", felt, 0)
+        check(f"{gap} cells above it, squares of {squares} that feel the block, rigid: {rigid}", felt, 0)
 
 
-def struck(scene, along, slide):
+def first_felt(r):
+    c = read_columns(r.directory / "contact.csv")
+    return min(t for t, x, y in zip(c["time"], c["force_x"], c["force_y"]) if hypot(x, y) > 0.0)
+
+
+def struck(scene, along, slide, rigid=None):
     """Impulse along the face over that along its normal, and void left when the corner is first felt. [cells]"""
     gap = 0.3
-    r = scene.run(along, gap, (slide, -SPEED), gap * H / SPEED + 3e-4)
-    p = r.last("one.momentum_x"), r.last("one.momentum_y")
-    tangent, normal = (sum(p[k] * d[k] for k in (0, 1)) for d in (scene.along, scene.normal))
-    c = read_columns(r.directory / "contact.csv")
-    first = min(t for t, x, y in zip(c["time"], c["force_x"], c["force_y"]) if hypot(x, y) > 0.0)
+    r = scene.run(along, gap, (slide, -SPEED), gap * H / SPEED + 3e-4, rigid)
+    tangent, normal = (sum((r[f"two.momentum_{x}"][-1] - r[f"two.momentum_{x}"][0]) * d[k] for k, x in enumerate("xy")) for d in (scene.along, scene.normal))
+    first = first_felt(r)
     check("momentum", r.summary["momentum_error"], 1e-12)
     clean(r)
-    return tangent / -normal, gap - SPEED * first / H
+    return tangent / normal, gap - SPEED * first / H
 
 
 # On meshes of half and a quarter of the cells 1e-3 to 4e-3 along the face. With rows in the middle of facets and the means of face
@@ -71,6 +78,33 @@ def test_a_corner_strikes_along_the_normal_of_the_face():
         check("root mean square", sqrt(sum(x * x for x in ratio) / 16), 0.07)
         check("felt through, cells", max(void), 1e-3)
         check("late, cells", -min(void), 0.1)
+
+
+# The energy of a rigid corner in an elastic face does not depend on where along the face it is. With the normals of its edges, which
+# are exact, the square was pushed along the face by the slope of the shallower edge: 0.59 of the impulse, 0.25 in the median.
+def test_a_rigid_corner_strikes_along_the_normal_of_the_face_and_a_rigid_face_bears_a_corner():
+    for rigid, largest in (("two", 5e-3), ("one", 1e-12)):
+        random = Random(5)
+        found = [struck(Scene(random, (5.0, 85.0)), random.uniform(-1.0, 1.0), 0.0, rigid) for _ in range(16)]
+        check(f"rigid: {rigid}: along over normal impulse, largest", max(abs(f[0]) for f in found), largest)
+        check("felt through, cells", max(f[1] for f in found), 1e-3)
+        check("late, cells", -min(f[1] for f in found), 5e-3)
+
+
+# With rows in the middle of facets up to 0.38 cells late.
+def test_a_contact_wall_bears_a_corner():
+    random, gap, half = Random(5), 0.3, 0.05
+    for _ in range(16):
+        lean, along = random.uniform(5.0, 85.0), random.uniform(0.28, 0.32)
+        t = radians(lean)
+        low = -half * (sin(t) + cos(t))
+        side = "{from: 0.0, to: 0.6, cells: 60}"
+        r = harmos(ROOT / "test/verification/decks/gaps.yaml", {
+            "mesh": f"{{x: {side}, y: {side}}}", "boundaries/bottom": "{type: contact wall}", "boundaries/top": "{type: outflow}", "output/fields/every_time": 0.0,
+            "run/end_time": gap * H / SPEED + 3e-5, "bodies": f"{{two: {{material: steel, shape: rectangle, center: [{along!r}, {gap * H - low!r}], size: [0.1, 0.1], angle: {lean!r}, velocity: [0.0, {-SPEED}]}}}}"})
+        late = SPEED * first_felt(r) / H - gap
+        check(f"corner that leans by {lean:.0f} degrees, late, cells", abs(late), 5e-3)
+        clean(r)
 
 
 run(globals())

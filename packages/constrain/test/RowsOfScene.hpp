@@ -15,7 +15,8 @@ inline std::vector<ContactRow> rowsOf(TinyScene const &scene, double dt = 0.0)
   InterfaceSegments const s = findInterfaceSegments(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions,
                                                     scene.conditions, Placement::Midpoint);
   SegmentBins const bins = binSegments(s, largestSegment(scene.mesh, s));
-  BodyTable const bodies = buildBodyTable({}, static_cast<int>(scene.options.interaction.extent(0)));
+  BodyTable bodies = buildBodyTable(scene.bodies_n, static_cast<int>(scene.options.interaction.extent(0)));
+  bodies.surfaces = rigidSurfaces(scene.outline);
   ContactRows const rows =
       buildContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, s, castRays(scene.mesh, s, bins), bins,
                        scene.conditions, bodies, scene.bonds, scene.options, {scene.velocity_n, bodies}, dt);

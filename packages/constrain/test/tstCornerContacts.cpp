@@ -37,6 +37,34 @@ TinyScene cornerAboveFace(Frame const &frame, double along, double gap, double l
       2, open_box);
 }
 
+/// A face with a dent that the corner of a square has made, which goes into it by `deep`.
+TinyScene dentedFace(Frame const &frame, double along, double deep, double lean, int block)
+{
+  double const c = std::cos(lean), s = std::sin(lean);
+  auto const of_square = [&](double x, double y) { return frame.at(along + c * x - s * y, -deep + s * x + c * y); };
+  Polygon<8> outline;
+  for (Vector2 const &x : {frame.at(-20, -20), frame.at(20, -20), frame.at(20, 0), of_square(deep / s, 0),
+                           of_square(0, 0), of_square(0, deep / c), frame.at(-20, 0)})
+    outline.push(x);
+  Body const dented{block, [outline](Quadrilateral const &cell)
+                    {
+                      Region part;
+                      EXPECT_TRUE(clipConvex(outline, cell, part));
+                      return part;
+                    }};
+  Body const square =
+      polygonBody(1 - block, {of_square(0, 0), of_square(2.5, 0), of_square(2.5, 2.5), of_square(0, 2.5)});
+  return TinyScene(rectilinearMesh(uniform(8, 8), uniform(8, 8)), {dented, square}, 2, open_box);
+}
+
+RigidBody rigidBody(int material)
+{
+  RigidBody body;
+  body.material = material;
+  body.motion = RigidMotion::Fixed;
+  return body;
+}
+
 /// The row of the least gap near a foot; all others there are further apart.
 ContactRow nearestRow(std::vector<ContactRow> const &rows, Vector2 const &foot)
 {
@@ -123,6 +151,79 @@ TEST(CornerContacts, cornerPressedFlat_hasOneRowOnItsTip)
   EXPECT_LT(norm(row.point - frame.at(0.1, 0.0)), 1e-12);
   EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
   EXPECT_NEAR(row.gap, 0.0, 1e-12);
+}
+
+TEST(CornerContacts, cornerAboveARigidFace_hasTheRowWithItsNormal)
+{
+  for (double const lean : {pi / 10, pi / 4, 0.4 * pi})
+    for (int const block : {0, 1})
+    {
+      Frame const frame{0.3};
+      TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, lean, block);
+      scene.bodies_n = {rigidBody(block)};
+      ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
+      EXPECT_EQ(row.material_a, block);
+      EXPECT_EQ(row.body_a, 0);
+      EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
+      EXPECT_NEAR(row.gap, 0.003, 1e-12);
+    }
+}
+
+TEST(CornerContacts, rigidCornerAboveAFace_hasTheRowWithTheNormalOfTheFace)
+{
+  for (double const lean : {pi / 10, pi / 4, 0.4 * pi})
+    for (int const block : {0, 1})
+    {
+      Frame const frame{0.3};
+      TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, lean, block);
+      scene.bodies_n = {rigidBody(1 - block)};
+      ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
+      EXPECT_EQ(row.material_a, block);
+      EXPECT_EQ(row.body_b, 0);
+      EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
+      EXPECT_NEAR(row.gap, 0.003, 1e-12);
+    }
+}
+
+// The tip's sides touch those of the dent, where no row stands but that of the corner.
+TEST(CornerContacts, rigidCornerInADent_hasOneRowWithTheNormalOfTheFace)
+{
+  for (double const deep : {0.05, 0.15})
+    for (int const block : {0, 1})
+    {
+      Frame const frame{0.3};
+      double const along = 0.1, lean = pi / 4;
+      TinyScene scene = dentedFace(frame, along, deep, lean, block);
+      scene.bodies_n = {rigidBody(1 - block)};
+      auto const rows = rowsOf(scene);
+      ContactRow const row = nearestRow(rows, frame.at(along, -deep));
+      EXPECT_EQ(row.material_a, block);
+      EXPECT_LT(norm(row.point - frame.at(along, -deep)), 1e-12);
+      EXPECT_GT(dot(row.normal, frame.normal()), 0.9999);
+      EXPECT_EQ(row.gap, 0.0);
+      for (ContactRow const &other : rows)
+        EXPECT_TRUE(other.key == row.key || norm(other.point - row.point) > 0.5 || other.gap > 0.05);
+    }
+}
+
+TEST(CornerContacts, cornerAboveAContactWall_hasTheRowWithTheNormalOfTheWall)
+{
+  for (double const lean : {pi / 10, pi / 4, 0.4 * pi})
+    for (double const along : {0.1, 0.43, 0.85})
+    {
+      Vector2 const tip{4.0 + along, 0.003};
+      double const c = 2.5 * std::cos(lean), s = 2.5 * std::sin(lean);
+      TinyScene const scene(
+          rectilinearMesh(uniform(8, 8), uniform(8, 8)),
+          {polygonBody(0, {tip, tip + Vector2{c, s}, tip + Vector2{c - s, s + c}, tip + Vector2{-s, c}})}, 1,
+          std::vector<BoundaryKind>(4, BoundaryKind::ContactWall));
+      ContactRow const row = nearestRow(rowsOf(scene), tip);
+      EXPECT_EQ(row.material_a, 0);
+      EXPECT_EQ(row.body_b, -2);
+      EXPECT_LT(norm(row.point - tip), 1e-12);
+      EXPECT_LT(norm(row.normal - Vector2{0.0, -1.0}), 1e-12);
+      EXPECT_NEAR(row.gap, 0.003, 1e-12);
+    }
 }
 
 TEST(CornerContacts, squareThatLiesOnAFace_keepsTheRowsOfItsFacets)

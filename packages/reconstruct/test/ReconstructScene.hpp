@@ -167,12 +167,13 @@ inline CellFills bodies(std::vector<Body> const &all, Geometry geometry = Geomet
 /// Filled regions of a scene in which no cell fails and no interface is left unfinished.
 inline FilledRegions reconstructed(Scene const &scene, double sliver = ReconstructionOptions().sliver,
                                    ReconstructionMethod method = ReconstructionMethod::MomentOfFluid,
-                                   View<int *> const &fluid = {})
+                                   View<int *> const &fluid = {}, View<int *> const &exact = {})
 {
   ReconstructionOptions options;
   options.method = method;
   options.sliver = sliver;
   options.fluid = fluid;
+  options.exact = exact;
   ReconstructionReport report;
   FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
   EXPECT_EQ(report.failures, 0);

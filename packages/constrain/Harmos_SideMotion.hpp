@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_SIDE_MOTION_HPP
+#define HARMOS_SIDE_MOTION_HPP
+
+#include <Harmos_ContactRows.hpp>
+
+namespace Harmos
+{
+
+/// The motion of what a segment bounds, at v^{n-1/2}.
+struct SideMotion
+{
+  int body;                    // BodyTable::of
+  Quadrilateral cell;          // of a deformable one; of others nothing is set
+  Vector2 velocity[4];         // of its corners
+  RigidBody const *rigid_body; // of a rigid one
+
+  KOKKOS_INLINE_FUNCTION Vector2 at(Vector2 const &point) const
+  {
+    if (body >= 0)
+      return rigid_body->velocityAt(point);
+    Vector2 v{0.0, 0.0};
+    if (body == -2)
+      return v;
+    double weight[4];
+    shapeFunctionsAt(cell, point, weight);
+    for (int k = 0; k < 4; ++k)
+      v += weight[k] * velocity[k];
+    return v;
+  }
+};
+
+KOKKOS_INLINE_FUNCTION SideMotion sideMotion(Mesh const &mesh, CellMaterialPairs const &pairs, Motion const &before,
+                                             InterfaceSegment const &s)
+{
+  SideMotion motion;
+  motion.body = before.bodies.of(s.material);
+  motion.rigid_body = motion.body >= 0 ? &before.bodies.body(motion.body) : nullptr;
+  if (motion.body != -1)
+    return motion;
+  motion.cell = cellQuadrilateral(mesh, s.cell);
+  for (int k = 0; k < 4; ++k)
+  {
+    int const dof = pairs.dof_node(s.pair, k);
+    motion.velocity[k] = {before.velocity(dof, 0), before.velocity(dof, 1)};
+  }
+  return motion;
+}
+
+} // namespace Harmos
+
+#endif

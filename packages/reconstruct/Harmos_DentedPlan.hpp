@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef HARMOS_DENTED_PLAN_HPP
+#define HARMOS_DENTED_PLAN_HPP
+
+#include <Harmos_Clip.hpp>
+#include <Harmos_CornerCell.hpp>
+
+namespace Harmos
+{
+
+/// The part of a polygon, which need not be convex, behind a line.
+struct PartOfDent
+{
+  Region region;
+  bool whole; // in one piece
+};
+
+/// The part of a given volume behind a line of a given normal of what lies around a corner: clipped with the offset d
+/// of V(d) = volume, by false position within the bracket of V, which is monotonic (Dowell & Jarratt, BIT 11 (1971)
+/// 168).
+HARMOS_LARGE_FUNCTION PartOfDent partOfDent(CellComponents const &components, Region const &around,
+                                            Vector2 const &normal, double volume)
+{
+  constexpr int most_clips = 100;
+  constexpr double tolerance = 1e-15; // of the cell
+  double low = 1e300, high = -1e300;
+  for (int i = 0; i < around.size; ++i)
+  {
+    low = Math::min(low, dot(normal, around[i]));
+    high = Math::max(high, dot(normal, around[i]));
+  }
+  double of_low = -volume, of_high = components.volumeOfRegion(around) - volume, offset = low;
+  PartOfDent part;
+  int kept = 0; // the bracket's end that stayed in the last step
+  for (int i = 0; i < most_clips; ++i)
+  {
+    double const next = of_high > of_low ? low - of_low * (high - low) / (of_high - of_low) : 0.5 * (low + high);
+    offset = next > low && next < high ? next : 0.5 * (low + high);
+    clip(around, Plane2{normal, offset}, part.region);
+    double const over = components.volumeOfRegion(part.region) - volume;
+    if (Math::fabs(over) <= tolerance || !(high - low > 0.0))
+      break;
+    if (over < 0.0)
+    {
+      low = offset;
+      of_low = over;
+      of_high *= kept == 1 ? 0.5 : 1.0;
+      kept = 1;
+    }
+    else
+    {
+      high = offset;
+      of_high = over;
+      of_low *= kept == -1 ? 0.5 : 1.0;
+      kept = -1;
+    }
+  }
+  // Where the line crosses the outline more than twice the corner keeps what is behind it together.
+  int crossings = 0;
+  bool holds_tip = false;
+  for (int i = 0; i < around.size; ++i)
+  {
+    Vector2 const &a = around[i], &b = around[around.next(i)], &c = around[around.next(around.next(i))];
+    crossings += (dot(normal, a) <= offset) != (dot(normal, b) <= offset) ? 1 : 0;
+    holds_tip = holds_tip || (cross(b - a, c - b) < 0.0 && dot(normal, b) <= offset);
+  }
+  part.whole = crossings <= 2 || holds_tip;
+  return part;
+}
+
+/// Of a body around a corner, and void, the normal of the line between them: stationary |x(theta) - c|^2 as in
+/// momentOfFluidLine, whose derivative along the line, (x - c) . tau, falls through zero; by false position within 0.6
+/// of the line that the body alone would have. Zero where it does not.
+HARMOS_LARGE_FUNCTION Vector2 normalBesideDent(CellComponents const &components, Region const &around, int body)
+{
+  constexpr int most_steps = 60;
+  constexpr double stride = 0.15, farthest = 0.6, tolerance = 1e-15;
+  double const volume = components.volume[body];
+  Vector2 const start =
+      momentOfFluidLine(components.polygon, volume, components.centroid[body], components.weight).normal;
+  auto const normalAt = [&](double theta)
+  { return Math::cos(theta) * start + Math::sin(theta) * perpendicular(start); };
+  auto const slope = [&](double theta)
+  {
+    Vector2 const n = normalAt(theta);
+    return dot(components.firstMiss(partOfDent(components, around, n, volume).region, body), perpendicular(n));
+  };
+  double low = 0.0, of_low = slope(0.0);
+  double const way = of_low > 0.0 ? stride : -stride;
+  double high = low, of_high = of_low;
+  while (of_high * of_low > 0.0 && Math::fabs(high) < farthest)
+  {
+    low = high;
+    of_low = of_high;
+    high += way;
+    of_high = slope(high);
+  }
+  if (of_high * of_low > 0.0)
+    return {0.0, 0.0};
+  double theta = high;
+  int kept = 0;
+  for (int i = 0; i < most_steps && Math::fabs(high - low) > tolerance && of_high != of_low; ++i)
+  {
+    theta = high - of_high * (high - low) / (of_high - of_low);
+    double const g = slope(theta);
+    if (Math::fabs(g) <= tolerance * volume)
+      break;
+    if (g * of_high > 0.0)
+    {
+      high = theta;
+      of_high = g;
+      of_low *= kept == 1 ? 0.5 : 1.0;
+      kept = 1;
+    }
+    else
+    {
+      low = theta;
+      of_low = g;
+      of_high *= kept == -1 ? 0.5 : 1.0;
+      kept = -1;
+    }
+  }
+  return normalAt(theta);
+}
+
+/// The regions of a rigid body's corner and of the solid around it.
+struct DentedCell
+{
+  Region corner, around; // empty where there is no such plan
+};
+
+HARMOS_LARGE_FUNCTION DentedCell dentedCell(CellComponents const &components, RemovalPlan const &plan)
+{
+  int const body = plan.component[0], other = plan.component[1];
+  double const open = components.count > 2 ? components.volume[2] : 0.0;
+  CellComponents filled = components; // void belongs to what is around
+  filled.count = 2;
+  filled.volume[other] += open;
+  EmbeddedCorner const corner = embeddedCorner(filled, body, other, plan.normal[0], plan.normal[1], plan.void_part);
+  DentedCell cell{corner.inside, corner.around};
+  if (open > 0.0 && !corner.around.empty())
+  {
+    PartOfDent const part = partOfDent(components, corner.around, plan.normal[2], components.volume[other]);
+    cell.around = part.whole ? part.region : Region();
+  }
+  return cell;
+}
+
+/// A rigid body, and a solid, and maybe void, none a sliver, which the given plan does not leave as they are: where the
+/// rigid one ends in a convex corner two lines leave it exactly as it is, and a third one leaves the void of what is
+/// around it. The solid has a dent where the corner goes in.
+///
+/// With straight cuts alone a corner that had gone in by a hundredth of a cell was drawn as a chord: contact was lost
+/// (doc/decisions/0038).
+HARMOS_LARGE_FUNCTION RemovalPlan dentedPlan(ReconstructionField const &field, CellComponents const &components,
+                                             SliverBounds const &slivers, RemovalPlan const &given)
+{
+  // Of the straight line: of corners 0.04 and more, beside round sides half is below.
+  constexpr double poor_misfit = 0.02;
+  bool const open = components.material[components.count - 1] == void_material;
+  int const bodies = components.count - (open ? 1 : 0);
+  if (components.exact == 0u || bodies != 2 || given.error <= removal_tie)
+    return given;
+  for (int body = 0; body < 2; ++body)
+  {
+    int const other = 1 - body;
+    if (!components.isExact(1u << body) || components.isExact(1u << other) || isFluid(field, components, other) ||
+        components.volume[0] < slivers.of(components, 0) || components.volume[1] < slivers.of(components, 1))
+      continue;
+    CellComponents ordered = components; // all others stand where void does
+    ordered.count = 2;
+    ordered.exact = 1u;
+    ordered.material[0] = components.material[body];
+    ordered.material[1] = components.material[other];
+    ordered.volume[0] = components.volume[body];
+    ordered.volume[1] = 1.0 - components.volume[body];
+    ordered.centroid[0] = components.centroid[body];
+    Vector2 const normal =
+        momentOfFluidLine(components.polygon, ordered.volume[0], ordered.centroid[0], components.weight).normal;
+    CornerCell const corner =
+        exactCornerCell(field, ordered, 0, components.polygon, nullptr, normal, false, poor_misfit);
+    if (corner.error == 1e300)
+      continue;
+    RemovalPlan plan = given;
+    plan.corner = plan.parted = false;
+    plan.dented = true;
+    plan.set(0, body, corner.line[0].normal);
+    plan.set(1, other, corner.line[1].normal);
+    plan.void_part = corner.open;
+    plan.error = corner.error;
+    if (open)
+    {
+      CellComponents filled = components;
+      filled.count = 2;
+      filled.volume[other] += components.volume[2];
+      Region const around = dentedCell(filled, plan).around;
+      if (around.empty())
+        continue;
+      bool const thin = components.volume[2] < slivers.of_void;
+      plan.set(
+          2, 2,
+          thin ? cutNormal(field, components, ReconstructionMethod::MomentOfFluid, slivers, components.polygon, 3u, 4u)
+                     .normal
+               : normalBesideDent(components, around, other));
+      if (plan.normal[2][0] == 0.0 && plan.normal[2][1] == 0.0)
+        continue;
+    }
+    if (!dentedCell(components, plan).around.empty())
+      return plan;
+  }
+  return given;
+}
+
+} // namespace Harmos
+
+#endif
