@@ -12,6 +12,7 @@ namespace
 
 constexpr double least_rise = 0.05;   // sine of the angle between face and edge
 constexpr double lies_flat = 0.95;    // cosine of that between face and tip
+constexpr double straight = 0.95;     // cosine of that between pieces of an edge
 constexpr double longest_tip = 0.5;   // that is pressed [cells]
 constexpr double shortest_edge = 0.3; // of a corner, and face below it [cells]
 constexpr double most_overlap = 0.05; // of the corner with the face, where their cells miss each other [cells]
@@ -77,7 +78,6 @@ struct CornerFinder
   KOKKOS_INLINE_FUNCTION double straightLength(int i, int side, double enough) const
   {
     constexpr int most_pieces = 6;
-    constexpr double straight = 0.95; // cosine
     double length = segment(i).length;
     int at = next(i, side);
     for (int pieces = 0; pieces < most_pieces && at >= 0 && at != i && length < enough * segment(i).cell_size; ++pieces)
@@ -110,24 +110,35 @@ struct CornerFinder
     return at;
   }
 
-  /// visit(j) for what touches another body behind segment i, up to the next edge, which touches nothing.
-  /// \return That edge; -1: there is none, or what touches is longer than a tip.
+  /// visit(j) for what lies between segment i and the next edge, which touches nothing: what touches another body, and
+  /// pieces too short for an edge beside that.
+  /// \return That edge; -1: there is none, or what lies between is longer than a tip.
   template <class Visitor>
   KOKKOS_INLINE_FUNCTION int behindTip(int i, Visitor const &visit) const
   {
     constexpr int most_pieces = 6;
+    InterfaceSegment const &a = segment(i);
     double length = 0.0;
+    bool touched = false;
     int after = nextEdge(i);
-    for (int pieces = 0; pieces < most_pieces && after >= 0 && after != i && touchesAnother(after); ++pieces)
+    for (int pieces = 0; pieces < most_pieces && after >= 0 && after != i; ++pieces)
     {
-      length += segment(after).length;
-      if (length > longest_tip * segment(i).cell_size)
+      InterfaceSegment const &s = segment(after);
+      bool const touching = touchesAnother(after);
+      if (isStep(s) || (!touching && (pieces == 0 || touched) && isLong(after)))
+        return isStep(s) ? -1 : after;
+      length += s.length;
+      if (length > longest_tip * a.cell_size || (!touching && dot(a.normal, s.normal) > straight))
         return -1;
       visit(after);
+      touched = touched || touching;
       after = nextEdge(after);
     }
-    return after < 0 || after == i || isStep(segment(after)) || touchesAnother(after) ? -1 : after;
+    return -1;
   }
+
+  /// Whether segment i, or what goes on straight behind it, is long enough for an edge.
+  KOKKOS_INLINE_FUNCTION bool isLong(int i) const { return straightLength(i, 1, shortest_edge) >= shortest_edge; }
 
   /// Where the lines of two edges meet.
   static KOKKOS_INLINE_FUNCTION Vector2 crossingOf(InterfaceSegment const &a, InterfaceSegment const &b)
@@ -148,23 +159,28 @@ struct CornerFinder
     if (!isSolid(a.material) || isStep(a) || touchesAnother(i))
       return corner;
     int longest = -1;
-    int const after = behindTip(
-        i, [&](int j) { longest = longest < 0 || segment(j).length > segment(longest).length ? j : longest; });
+    int const after = behindTip(i,
+                                [&](int j)
+                                {
+                                  if (touchesAnother(j) && (longest < 0 || segment(j).length > segment(longest).length))
+                                    longest = j;
+                                });
     if (after < 0)
       return corner;
     InterfaceSegment const &b = segment(after);
     double const turn = dot(a.normal, b.normal);
     if (turn > (a.cell == b.cell ? in_cell : across) || turn < most_turn || !(cross(a.normal, b.normal) > 0.0))
       return corner;
-    if (straightLength(i, 0, shortest_edge) < shortest_edge || straightLength(after, 1, shortest_edge) < shortest_edge)
+    if (straightLength(i, 0, shortest_edge) < shortest_edge)
       return corner;
     corner.edge[1] = after;
-    corner.segment = b.length > a.length ? after : i;
     corner.foot = 0.5 * (endOf(a, 1) + endOf(b, 0));
-    if (longest < 0)
-      return corner;
-    corner.tip = corner.segment = longest;
-    corner.foot = isRigid(a.material) ? crossingOf(a, b) : segment(longest).midpoint;
+    if (longest >= 0)
+    {
+      corner.tip = longest;
+      corner.foot = isRigid(a.material) ? crossingOf(a, b) : segment(longest).midpoint;
+    }
+    corner.segment = corner.tip >= 0 ? corner.tip : b.length > a.length ? after : i;
     return corner;
   }
 
@@ -287,7 +303,8 @@ void giveToCarriers(CornerFinder const &finder, CornerContacts &corners, WorkArr
         finder.behindTip(contact.edge[0],
                          [&](int j)
                          {
-                           if (j == contact.tip || finder.isRigid(finder.segment(j).material))
+                           if (j == contact.tip || finder.isRigid(finder.segment(j).material) ||
+                               !finder.touchesAnother(j))
                              c.of_edge(j, 0) = k;
                          });
       });

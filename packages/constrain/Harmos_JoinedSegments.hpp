@@ -16,6 +16,18 @@ KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 cons
   return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
 }
 
+/// Whether the line of a segment goes on along another one of its cell, behind it (side 1) or before it (0).
+KOKKOS_INLINE_FUNCTION bool goesOnAlong(InterfaceSegment const &a, InterfaceSegment const &b, int side)
+{
+  constexpr double near = 1e-6, straight = 0.9999; // [cells]; cosine
+  if (b.material != a.material || dot(a.normal, b.normal) < straight)
+    return false;
+  if (!((side == 0 ? -1.0 : 1.0) * dot(b.midpoint - a.midpoint, perpendicular(a.normal)) > 0.0))
+    return false; // pieces shorter than `near` would each be the next of the other
+  Vector2 const apart = endOf(b, 1 - side) - endOf(a, side);
+  return dot(apart, apart) <= near * near * a.cell_size * a.cell_size;
+}
+
 /// \brief Pieces of one line between two solids through a cell, which carry one row.
 ///
 /// Void of 1e-6 of a cell, which bodies that are strained along each other leave, is a wedge along a part of the line:
@@ -51,7 +63,7 @@ struct JoinedSegments
     line.carrier = i;
     line.gap = hit(i).gap;
     for (int side = 0; side < 2; ++side)
-      for (int j = next(i, end[side], side); j >= 0; j = next(j, end[side], side))
+      for (int j = next(i, side); j >= 0; j = next(j, side))
       {
         ++pieces;
         end[side] = endOf(segment(j), side);
@@ -91,20 +103,13 @@ private:
   }
 
   /// The piece that goes on where piece i ends, on one side; -1: none.
-  KOKKOS_INLINE_FUNCTION int next(int i, Vector2 const &end, int side) const
+  KOKKOS_INLINE_FUNCTION int next(int i, int side) const
   {
-    constexpr double near = 1e-6, straight = 0.9999; // [cells]; cosine
     InterfaceSegment const &a = segment(i);
     auto const goesOn = [&](int j)
     {
-      InterfaceSegment const &b = segment(j);
-      if (b.material != a.material || dot(a.normal, b.normal) < straight || !mayJoin(j) ||
-          segment(hit(j).segment).material != segment(hit(i).segment).material)
-        return false;
-      if (!((side == 0 ? -1.0 : 1.0) * dot(b.midpoint - a.midpoint, perpendicular(a.normal)) > 0.0))
-        return false; // pieces shorter than `near` would each be the next of the other
-      Vector2 const apart = endOf(b, 1 - side) - end;
-      return dot(apart, apart) <= near * near * a.cell_size * a.cell_size;
+      return goesOnAlong(a, segment(j), side) && mayJoin(j) &&
+             segment(hit(j).segment).material == segment(hit(i).segment).material;
     };
     for (int j = i + 1; j < count && segment(j).cell == a.cell; ++j)
       if (goesOn(j))

@@ -9,7 +9,7 @@
 #include <Harmos_CurvedGap.hpp>
 #include <Harmos_FacingSegments.hpp>
 #include <Harmos_Fullness.hpp>
-#include <Harmos_JoinedSegments.hpp>
+#include <Harmos_LinePoint.hpp>
 #include <Harmos_PlannedRows.hpp>
 #include <Harmos_SegmentBearing.hpp>
 #include <Harmos_SideMotion.hpp>
@@ -341,6 +341,16 @@ struct RowBuilder
     }
   }
 
+  /// The same of segment i at a corner's contact: as a point of its line, or of the corner itself.
+  KOKKOS_INLINE_FUNCTION void fillCorner(CornerContact const &contact, int i, Vector2 const &point, int body,
+                                         int dof[4], double weight[4]) const
+  {
+    InterfaceSegment const &s = segment(i);
+    fillSide(s, {point, {0.0, 0.0}, 0.0, {0.0, 0.0}}, body, dof, weight);
+    if (body == -1 && (i == contact.face || i == contact.tip))
+      linePointWeights(mesh, segments, i, point, fullnessOf(s.cell), options.shortest_segment, weight);
+  }
+
   /// Length of the segment between the same materials that goes on beyond the cell face on which an end of segment a
   /// lies, where it is too short for a row and shares its traction; else zero.
   KOKKOS_INLINE_FUNCTION double shortBeyond(InterfaceSegment const &a, InterfaceSegment const &b,
@@ -439,12 +449,10 @@ struct RowBuilder
     JoinedSegments::Line line;
     InterfaceSegment const &whole = rows.joined && joinedSegments().find(i, line) ? line.whole : segment(i);
     InterfaceSegment a = rows.count == 2 ? halfOf(whole, half) : whole;
-    Vector2 across = a.normal;
     if (rows.corner >= 0)
     {
       CornerContact const &contact = corners.contact(rows.corner);
       a.point = contact.foot + (i == contact.face ? 0.0 : contact.gap) * contact.normal;
-      across = rows.normal[0];
     }
     InterfaceSegment const &b = segment(rows.hit[half].segment);
     ContactRow row = {};
@@ -460,10 +468,18 @@ struct RowBuilder
     row.gap = rows.hit[half].gap;
     row.length = a.length * areaWeight(mesh.geometry, {0.0, 0.0}).at(a.midpoint);
     setInteraction(b, row);
-    Traction traction = rows.corner < 0 ? tractionOf(a, b) : Traction{a.point, {0.0, 0.0}, 0.0, {0.0, 0.0}};
+    if (rows.corner >= 0)
+    {
+      CornerContact const &contact = corners.contact(rows.corner);
+      fillCorner(contact, i, a.point, row.body_a, row.dof_a, row.weight_a);
+      Vector2 const corner = contact.foot + contact.gap * contact.normal;
+      fillCorner(contact, rows.hit[0].segment, corner, row.body_b, row.dof_b, row.weight_b);
+      return row;
+    }
+    Traction traction = tractionOf(a, b);
     row.length *= 1.0 + 0.5 * (traction.share[0] + traction.share[1]);
     fillSide(a, traction, row.body_a, row.dof_a, row.weight_a);
-    traction.middle += row.gap * across;
+    traction.middle += row.gap * a.normal;
     fillSide(b, traction, row.body_b, row.dof_b, row.weight_b);
     return row;
   }

@@ -67,7 +67,8 @@ def struck(scene, along, slide, rigid=None):
 
 
 # On meshes of half and a quarter of the cells 1e-3 to 4e-3 along the face. With rows in the middle of facets and the means of face
-# and edge for normals a tenth (root mean square), and up to a quarter of a cell late.
+# and edge for normals a tenth (root mean square), and up to a quarter of a cell late; with rows that throw light nodes out of their
+# way 0.017.
 def test_a_corner_strikes_along_the_normal_of_the_face():
     random = Random(5)
     for slide in (0.0, 100.0):
@@ -75,7 +76,7 @@ def test_a_corner_strikes_along_the_normal_of_the_face():
         ratio, void = sorted(abs(f[0]) for f in found), [f[1] for f in found]
         print(f"  along over normal impulse, sliding at {slide} m/s: median {ratio[8]:.1e}, root mean square {sqrt(sum(x * x for x in ratio) / 16):.1e}, largest {ratio[-1]:.1e}")
         check("median", ratio[8], 0.01)
-        check("root mean square", sqrt(sum(x * x for x in ratio) / 16), 0.07)
+        check("root mean square", sqrt(sum(x * x for x in ratio) / 16), 0.012)
         check("felt through, cells", max(void), 1e-3)
         check("late, cells", -min(void), 0.1)
 

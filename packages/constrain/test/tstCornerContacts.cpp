@@ -185,6 +185,23 @@ TEST(CornerContacts, rigidCornerAboveAFace_hasTheRowWithTheNormalOfTheFace)
     }
 }
 
+// The face runs from (4, 4.1) to (4.9, 5): the node before it, (4, 5), moves both ends by a tenth, and no more of the
+// face than they do, though its shape function is 0.3 at the foot.
+TEST(CornerContacts, cornerAboveAFace_pushesTheNodeBeforeItAsTheFaceFollowsIt)
+{
+  Frame const frame{pi / 4};
+  TinyScene const scene = cornerAboveFace(frame, 0.4, 0.003, pi / 4);
+  ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.4, 0.0));
+  Quadrilateral const x = cellsOf(scene.mesh)(row.cell_a);
+  Vector2 place{0.0, 0.0};
+  for (int k = 0; k < 4; ++k)
+    place += row.weight_a[k] * x[k];
+  EXPECT_LT(norm(x[3] - Vector2{4.0, 5.0}), 1e-12);
+  EXPECT_NEAR(row.weight_a[3], 0.1, 1e-12);
+  EXPECT_NEAR(row.weight_a[0] + row.weight_a[1] + row.weight_a[2] + row.weight_a[3], 1.0, 1e-12);
+  EXPECT_LT(norm(place - row.point), 1e-12);
+}
+
 // The tip's sides touch those of the dent, where no row stands but that of the corner.
 TEST(CornerContacts, rigidCornerInADent_hasOneRowWithTheNormalOfTheFace)
 {
