@@ -15,13 +15,48 @@ struct PartOfDent
   bool whole; // in one piece
 };
 
+/// Where a function changes its sign between two points, by false position; the end that stays counts by half (the
+/// Illinois method; Dowell & Jarratt, BIT 11 (1971) 168).
+///
+/// \param of_low, of_high The function there. \param tolerance Of the function.
+template <class Function>
+HARMOS_LARGE_FUNCTION double signChange(Function const &function, double low, double of_low, double high,
+                                        double of_high, double tolerance)
+{
+  constexpr int most_steps = 100;
+  double x = high;
+  int kept = 0; // the end that stayed in the last step: -1: low, 1: high
+  for (int i = 0; i < most_steps && low != high && of_low != of_high; ++i)
+  {
+    x = high - of_high * (high - low) / (of_high - of_low);
+    if (!((x - low) * (x - high) < 0.0))
+      x = 0.5 * (low + high);
+    double const of_x = function(x);
+    if (Math::fabs(of_x) <= tolerance)
+      break;
+    if (of_x * of_high > 0.0)
+    {
+      high = x;
+      of_high = of_x;
+      of_low *= kept == -1 ? 0.5 : 1.0;
+      kept = -1;
+    }
+    else
+    {
+      low = x;
+      of_low = of_x;
+      of_high *= kept == 1 ? 0.5 : 1.0;
+      kept = 1;
+    }
+  }
+  return x;
+}
+
 /// The part of a given volume behind a line of a given normal of what lies around a corner: clipped with the offset d
-/// of V(d) = volume, by false position within the bracket of V, which is monotonic (Dowell & Jarratt, BIT 11 (1971)
-/// 168).
+/// of V(d) = volume, which is monotonic (signChange).
 HARMOS_LARGE_FUNCTION PartOfDent partOfDent(CellComponents const &components, Region const &around,
                                             Vector2 const &normal, double volume)
 {
-  constexpr int most_clips = 100;
   constexpr double tolerance = 1e-15; // of the cell
   double low = 1e300, high = -1e300;
   for (int i = 0; i < around.size; ++i)
@@ -29,32 +64,13 @@ HARMOS_LARGE_FUNCTION PartOfDent partOfDent(CellComponents const &components, Re
     low = Math::min(low, dot(normal, around[i]));
     high = Math::max(high, dot(normal, around[i]));
   }
-  double of_low = -volume, of_high = components.volumeOfRegion(around) - volume, offset = low;
   PartOfDent part;
-  int kept = 0; // the bracket's end that stayed in the last step
-  for (int i = 0; i < most_clips; ++i)
+  auto const over = [&](double offset)
   {
-    double const next = of_high > of_low ? low - of_low * (high - low) / (of_high - of_low) : 0.5 * (low + high);
-    offset = next > low && next < high ? next : 0.5 * (low + high);
     clip(around, Plane2{normal, offset}, part.region);
-    double const over = components.volumeOfRegion(part.region) - volume;
-    if (Math::fabs(over) <= tolerance || !(high - low > 0.0))
-      break;
-    if (over < 0.0)
-    {
-      low = offset;
-      of_low = over;
-      of_high *= kept == 1 ? 0.5 : 1.0;
-      kept = 1;
-    }
-    else
-    {
-      high = offset;
-      of_high = over;
-      of_low *= kept == -1 ? 0.5 : 1.0;
-      kept = -1;
-    }
-  }
+    return components.volumeOfRegion(part.region) - volume;
+  };
+  double const offset = signChange(over, low, -volume, high, over(high), tolerance);
   // Where the line crosses the outline more than twice the corner keeps what is behind it together.
   int crossings = 0;
   bool holds_tip = false;
@@ -69,11 +85,10 @@ HARMOS_LARGE_FUNCTION PartOfDent partOfDent(CellComponents const &components, Re
 }
 
 /// Of a body around a corner, and void, the normal of the line between them: stationary |x(theta) - c|^2 as in
-/// momentOfFluidLine, whose derivative along the line, (x - c) . tau, falls through zero; by false position within 0.6
-/// of the line that the body alone would have. Zero where it does not.
+/// momentOfFluidLine, whose derivative has the sign of (x - c) . tau, tau along the line; sought within 0.6 of the line
+/// that the body alone would have. Zero where there is none.
 HARMOS_LARGE_FUNCTION Vector2 normalBesideDent(CellComponents const &components, Region const &around, int body)
 {
-  constexpr int most_steps = 60;
   constexpr double stride = 0.15, farthest = 0.6, tolerance = 1e-15;
   double const volume = components.volume[body];
   Vector2 const start =
@@ -85,9 +100,8 @@ HARMOS_LARGE_FUNCTION Vector2 normalBesideDent(CellComponents const &components,
     Vector2 const n = normalAt(theta);
     return dot(components.firstMiss(partOfDent(components, around, n, volume).region, body), perpendicular(n));
   };
-  double low = 0.0, of_low = slope(0.0);
+  double low = 0.0, of_low = slope(0.0), high = low, of_high = of_low;
   double const way = of_low > 0.0 ? stride : -stride;
-  double high = low, of_high = of_low;
   while (of_high * of_low > 0.0 && Math::fabs(high) < farthest)
   {
     low = high;
@@ -97,30 +111,7 @@ HARMOS_LARGE_FUNCTION Vector2 normalBesideDent(CellComponents const &components,
   }
   if (of_high * of_low > 0.0)
     return {0.0, 0.0};
-  double theta = high;
-  int kept = 0;
-  for (int i = 0; i < most_steps && Math::fabs(high - low) > tolerance && of_high != of_low; ++i)
-  {
-    theta = high - of_high * (high - low) / (of_high - of_low);
-    double const g = slope(theta);
-    if (Math::fabs(g) <= tolerance * volume)
-      break;
-    if (g * of_high > 0.0)
-    {
-      high = theta;
-      of_high = g;
-      of_low *= kept == 1 ? 0.5 : 1.0;
-      kept = 1;
-    }
-    else
-    {
-      low = theta;
-      of_low = g;
-      of_high *= kept == -1 ? 0.5 : 1.0;
-      kept = -1;
-    }
-  }
-  return normalAt(theta);
+  return normalAt(signChange(slope, low, of_low, high, of_high, tolerance * volume));
 }
 
 /// The regions of a rigid body's corner and of the solid around it.
