@@ -18,7 +18,7 @@ class Scene:
         self.along, self.normal = (cos(a), sin(a)), (-sin(a), cos(a))
         self.middle = tuple(0.3 + random.random() * H for _ in range(2))
 
-    def run(self, along, gap, velocity, end_time, rigid=None):
+    def run(self, along, gap, velocity, end_time, rigid=None, interactions="{default: sliding}"):
         """`along`, `gap`: of the corner in cells; `velocity`: of the square, along the face and up; `rigid`: a body."""
         u, n, half = self.along, self.normal, 0.05
         t = radians(self.angle + self.lean)
@@ -30,7 +30,7 @@ class Scene:
         side, outflow = "{from: 0.0, to: 0.6, cells: 60}", "{type: outflow}"
         return harmos(ROOT / "test/verification/decks/gaps.yaml", {
             "mesh": f"{{x: {side}, y: {side}}}", "boundaries/bottom": outflow, "boundaries/top": outflow, "output/fields/every_time": 0.0, "run/end_time": end_time,
-            "materials/hard": "{eos: rigid, density: 7800.0}",
+            "materials/hard": "{eos: rigid, density: 7800.0}", "interactions": interactions,
             "bodies": f"{{one: {{{self.material('one', rigid)}, shape: rectangle, center: {block!r}, size: [0.2, 0.1], angle: {self.angle!r}}}, "
                       f"two: {{{self.material('two', rigid)}, shape: rectangle, center: {square!r}, size: [0.1, 0.1], angle: {self.angle + self.lean!r}, velocity: {v!r}}}}}"})
 
@@ -55,10 +55,10 @@ def first_felt(r):
     return min(t for t, x, y in zip(c["time"], c["force_x"], c["force_y"]) if hypot(x, y) > 0.0)
 
 
-def struck(scene, along, slide, rigid=None):
+def struck(scene, along, slide, rigid=None, interactions="{default: sliding}"):
     """Impulse along the face over that along its normal, and void left when the corner is first felt. [cells]"""
     gap = 0.3
-    r = scene.run(along, gap, (slide, -SPEED), gap * H / SPEED + 3e-4, rigid)
+    r = scene.run(along, gap, (slide, -SPEED), gap * H / SPEED + 3e-4, rigid, interactions)
     tangent, normal = (sum((r[f"two.momentum_{x}"][-1] - r[f"two.momentum_{x}"][0]) * d[k] for k, x in enumerate("xy")) for d in (scene.along, scene.normal))
     first = first_felt(r)
     check("momentum", r.summary["momentum_error"], 1e-12)
@@ -90,6 +90,14 @@ def test_a_rigid_corner_strikes_along_the_normal_of_the_face_and_a_rigid_face_be
         check(f"rigid: {rigid}: along over normal impulse, largest", max(abs(f[0]) for f in found), largest)
         check("felt through, cells", max(f[1] for f in found), 1e-3)
         check("late, cells", -min(f[1] for f in found), 5e-3)
+
+
+def test_corners_that_rub_bear_the_coefficient_of_friction():
+    for rigid in ("two", "one"):
+        random = Random(5)
+        for _ in range(6):
+            ratio, _ = struck(Scene(random, (5.0, 85.0)), random.uniform(-1.0, 1.0), 100.0, rigid, "{default: friction, coefficient: 0.3}")
+            check(f"rigid: {rigid}: along over normal impulse, less -0.3", abs(ratio + 0.3), 5e-3)
 
 
 # With rows in the middle of facets up to 0.38 cells late.
