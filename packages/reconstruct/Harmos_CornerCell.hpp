@@ -204,6 +204,24 @@ HARMOS_LARGE_FUNCTION EmbeddedCorner embeddedCorner(CellComponents const &compon
   return corner;
 }
 
+/// One body of two, and all the rest as the other, which stands where void does.
+HARMOS_LARGE_FUNCTION CellComponents bodyAndRest(CellComponents const &components, int body, int other)
+{
+  CellComponents ordered = components;
+  ordered.count = 2;
+  ordered.exact = 0u;
+  int const number[2] = {body, other};
+  for (int k = 0; k < 2; ++k)
+  {
+    ordered.material[k] = components.material[number[k]];
+    ordered.volume[k] = components.volume[number[k]];
+    ordered.centroid[k] = components.centroid[number[k]];
+    ordered.exact |= components.isExact(1u << number[k]) ? 1u << k : 0u;
+  }
+  ordered.volume[1] += components.count > 2 ? components.volume[2] : 0.0;
+  return ordered;
+}
+
 /// Whether a cell around one holds a material that is none of its own.
 KOKKOS_INLINE_FUNCTION bool othersAround(ReconstructionField const &field, CellComponents const &components)
 {
@@ -239,18 +257,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan embeddedCornerPlan(ReconstructionField const &
   for (int body = 0; body < 2; ++body)
   {
     int const other = 1 - body;
-    CellComponents ordered = components; // the other one stands where void does
-    ordered.count = 2;
-    ordered.exact = 0u;
-    int const number[2] = {body, other};
-    for (int k = 0; k < 2; ++k)
-    {
-      ordered.material[k] = components.material[number[k]];
-      ordered.volume[k] = components.volume[number[k]];
-      ordered.centroid[k] = components.centroid[number[k]];
-      ordered.exact |= components.isExact(1u << number[k]) ? 1u << k : 0u;
-    }
-    ordered.volume[1] += components.count > 2 ? components.volume[2] : 0.0;
+    CellComponents const ordered = bodyAndRest(components, body, other);
     Vector2 const normal =
         momentOfFluidLine(components.polygon, ordered.volume[0], ordered.centroid[0], components.weight).normal;
     CornerCell const cell = exactCornerCell(field, ordered, 0, components.polygon, nullptr, normal, false, poor_misfit);

@@ -158,14 +158,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan dentedPlan(ReconstructionField const &field, C
     if (!components.isExact(1u << body) || components.isExact(1u << other) || isFluid(field, components, other) ||
         components.volume[0] < slivers.of(components, 0) || components.volume[1] < slivers.of(components, 1))
       continue;
-    CellComponents ordered = components; // all others stand where void does
-    ordered.count = 2;
-    ordered.exact = 1u;
-    ordered.material[0] = components.material[body];
-    ordered.material[1] = components.material[other];
-    ordered.volume[0] = components.volume[body];
-    ordered.volume[1] = 1.0 - components.volume[body];
-    ordered.centroid[0] = components.centroid[body];
+    CellComponents const ordered = bodyAndRest(components, body, other);
     Vector2 const normal =
         momentOfFluidLine(components.polygon, ordered.volume[0], ordered.centroid[0], components.weight).normal;
     CornerCell const corner =
