@@ -46,6 +46,28 @@ inline Mesh ringMesh(int n, double left, double shake, unsigned seed)
   return mesh;
 }
 
+/// 7 x 7 cells over a unit square, some shaken, some on the axis, some far from it.
+struct Place
+{
+  Mesh mesh;
+  Vector2 low;
+
+  Place(Geometry geometry, int number)
+  {
+    bool const ring = geometry == Geometry::Axisymmetric;
+    double const left = ring && number % 2 == 0 ? 0.0 : 10.0;
+    mesh = ring ? ringMesh(7, left, 0.1, number) : makeMesh(7, 7, 1.0 / 7.0, number % 2 == 0 ? 0.0 : 0.1, number);
+    low = {ring ? left : 0.0, 0.0};
+  }
+
+  Vector2 inMiddleCell(std::mt19937 &random) const
+  {
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    double const x = (3.0 + unit(random)) / 7.0, y = (3.0 + unit(random)) / 7.0;
+    return low + Vector2{x, y};
+  }
+};
+
 /// One material in one cell.
 struct Fill
 {
