@@ -171,6 +171,8 @@ std::vector<long long> globalNumbers(Mesh const &mesh, View<int *> const &cell, 
 
 std::vector<long long> locatePoints(Mesh const &mesh, std::vector<Vector2> const &points, Exchange const &exchange)
 {
+  if (points.empty()) // on all ranks
+    return {};
   int const count = static_cast<int>(points.size());
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
