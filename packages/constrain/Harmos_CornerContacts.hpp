@@ -52,7 +52,7 @@ struct CornerContacts
 /// deformable one and a contact wall, which pass each other by at most 0.02 cells in the step. Edges and face are 0.3
 /// cells long at least, edges touch nothing, the outline turns by 37 to 150 degrees (from 53 on where the edges are in
 /// two cells), what touches between them is at most 0.5 cells long: of a deformable corner the tip that is pressed
-/// flat, of a rigid one the sides of the dent that it makes.
+/// flat, of a rigid one the sides of the dent that it makes, and pieces too short for an edge beside these.
 ///
 /// \param before v^{n-1/2} \param dt Of the step [s]; 0: no motion is known.
 /// \param hit Of the segments' rays: a face whose ray meets a third body bears no corner.

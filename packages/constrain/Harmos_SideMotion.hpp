@@ -15,6 +15,7 @@ struct SideMotion
   Vector2 velocity[4];         // of its corners
   RigidBody const *rigid_body; // of a rigid one
 
+  /// Velocity at a point [m/s]: of a rigid body, zero of a wall, else sum_k N_k v_k.
   KOKKOS_INLINE_FUNCTION Vector2 at(Vector2 const &point) const
   {
     if (body >= 0)
@@ -30,6 +31,7 @@ struct SideMotion
   }
 };
 
+/// The motion of what segment s bounds. \param before v^{n-1/2}; the bodies of the result are its.
 KOKKOS_INLINE_FUNCTION SideMotion sideMotion(Mesh const &mesh, CellMaterialPairs const &pairs, Motion const &before,
                                              InterfaceSegment const &s)
 {

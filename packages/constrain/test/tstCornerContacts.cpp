@@ -153,36 +153,21 @@ TEST(CornerContacts, cornerPressedFlat_hasOneRowOnItsTip)
   EXPECT_NEAR(row.gap, 0.0, 1e-12);
 }
 
-TEST(CornerContacts, cornerAboveARigidFace_hasTheRowWithItsNormal)
+TEST(CornerContacts, cornerAndFaceOneOfThemRigid_haveTheRowWithTheNormalOfTheFace)
 {
   for (double const lean : {pi / 10, pi / 4, 0.4 * pi})
     for (int const block : {0, 1})
-    {
-      Frame const frame{0.3};
-      TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, lean, block);
-      scene.bodies_n = {rigidBody(block)};
-      ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
-      EXPECT_EQ(row.material_a, block);
-      EXPECT_EQ(row.body_a, 0);
-      EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
-      EXPECT_NEAR(row.gap, 0.003, 1e-12);
-    }
-}
-
-TEST(CornerContacts, rigidCornerAboveAFace_hasTheRowWithTheNormalOfTheFace)
-{
-  for (double const lean : {pi / 10, pi / 4, 0.4 * pi})
-    for (int const block : {0, 1})
-    {
-      Frame const frame{0.3};
-      TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, lean, block);
-      scene.bodies_n = {rigidBody(1 - block)};
-      ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
-      EXPECT_EQ(row.material_a, block);
-      EXPECT_EQ(row.body_b, 0);
-      EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
-      EXPECT_NEAR(row.gap, 0.003, 1e-12);
-    }
+      for (bool const rigid_face : {false, true})
+      {
+        Frame const frame{0.3};
+        TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, lean, block);
+        scene.bodies_n = {rigidBody(rigid_face ? block : 1 - block)};
+        ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
+        EXPECT_EQ(row.material_a, block);
+        EXPECT_EQ(rigid_face ? row.body_a : row.body_b, 0);
+        EXPECT_LT(norm(row.normal - frame.normal()), 1e-12);
+        EXPECT_NEAR(row.gap, 0.003, 1e-12);
+      }
 }
 
 // The face runs from (4, 4.1) to (4.9, 5): the node before it, (4, 5), moves both ends by a tenth, and no more of the
