@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Free rigid bodies that roll, slide and spin on rigid ones inside of cells: rigid-body mechanics has the exact answers."""
-from math import cos, hypot, pi, radians, sin, sqrt, tan
+from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tan
+from random import Random
 
 from harness import ROOT, check, clean, harmos, read_columns, run
 
@@ -130,6 +131,63 @@ def test_a_box_slides_down_a_slope_without_turning():
     check("speed", abs(speed / (G * (sin(angle) - friction * cos(angle)) * r.time_of_velocities()) - 1.0), 1e-8)
     check("spin", spin, 1e-6)
     clean(r)
+
+
+def block_on_slope(angle, size):
+    """A box of the given size that stands on the ground, inclined by `angle`, and the middle of its lower side."""
+    a = radians(angle)
+    foot = (0.3 * cos(a), 0.011 + 0.3 * sin(a))
+    middle = (foot[0] - 0.5 * size[1] * sin(a), foot[1] + 0.5 * size[1] * cos(a))
+    return f"{{material: hard, shape: rectangle, center: [{middle[0]!r}, {middle[1]!r}], size: {list(size)}, angle: {angle}, motion: free}}"
+
+
+def test_a_slender_box_topples_where_the_slope_is_steeper_than_width_over_height():
+    """It turns about its lower edge, r from its middle, by q from the balance: d2q/dt2 = 3 g / (4 r) sin(q), by the moment of inertia 4 m r^2 / 3."""
+    width, height = 0.16, 0.4
+    balance, r0 = atan2(width, height), 0.5 * hypot(width, height)
+    for angle in (21.6, 21.9, 25.0):
+        start = radians(angle) - balance
+        r = harmos(DECK, {**on_slope(angle), "bodies/disc": block_on_slope(angle, (width, height)), "interactions/coefficient": 1.0,
+                          "run/end_time": 0.3, "run/max_dt": 1e-3})
+        speed = hypot(r.last("disc.momentum_x"), r.last("disc.momentum_y")) / r.last("disc.mass")
+        q, rate, t, step = start, 0.0, 0.0, 1e-5
+        while start > 0.0 and t < r.time_of_velocities():
+            rate += step * 0.75 * G / r0 * sin(q)
+            q += step * rate
+            t += step
+        print(f"  {angle} degrees, balance at {degrees(balance):.2f}: speed {speed:.3e}, exact {rate * r0:.3e}")
+        check(f"error of the speed, slope of {angle} degrees", abs(speed - rate * r0), 1e-4 * rate * r0 + 1e-9)
+        clean(r)
+
+
+def test_corners_of_free_boxes_strike_with_the_impulse_of_rigid_bodies():
+    """j (1/m + 1/M + l^2/I + L^2/J) = (1 + e) v, l and L the distances of the middles from the normal through the corner."""
+    size, other, speed = (0.3, 0.2), (0.6, 0.4), 1.0
+    random = Random(3)
+    for e in (1.0, 0.5):
+        for _ in range(6):
+            angle, lean = random.uniform(0.0, 90.0), random.uniform(8.0, 82.0)
+            a, b = radians(angle), radians(angle + lean)
+            along, normal = (cos(a), sin(a)), (-sin(a), cos(a))
+            corners = [(p * cos(b) - q * sin(b), p * sin(b) + q * cos(b)) for p in (-0.15, 0.15) for q in (-0.1, 0.1)]
+            low = min(corners, key=lambda c: c[0] * normal[0] + c[1] * normal[1])
+            at = (random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03))  # where the corner strikes
+            lever = random.uniform(-0.1, 0.1)
+            under = [at[k] - lever * along[k] - 0.5 * other[1] * normal[k] for k in (0, 1)]
+            above = [at[k] - low[k] + 0.01 * normal[k] for k in (0, 1)]
+            sides = "{from: -0.9, to: 0.9, cells: 45}"
+            r = harmos(DECK, {
+                "gravity": "[0.0, 0.0]", "mesh/x": sides, "mesh/y": sides, "interactions": f"{{default: sliding, restitution: {e}}}",
+                "run/end_time": 0.03, "run/max_dt": 0.01,
+                "bodies/ground": f"{{material: hard, shape: rectangle, center: {under}, size: {list(other)}, angle: {angle}, motion: free}}",
+                "bodies/disc": f"{{material: hard, shape: rectangle, center: {above}, size: {list(size)}, angle: {angle + lean}, motion: free, velocity: {[-speed * n for n in normal]}}}"})
+            mass, large = r.first("disc.mass"), r.first("ground.mass")
+            l = low[0] * along[0] + low[1] * along[1]
+            inverse = 1.0 / mass + 1.0 / large + 12.0 * l**2 / (mass * hypot(*size)**2) + 12.0 * lever**2 / (large * hypot(*other)**2)
+            exact = (1.0 + e) * speed / inverse
+            got = [r.last(f"disc.momentum_{d}") - r.first(f"disc.momentum_{d}") for d in "xy"]
+            check(f"error of the impulse, leans by {lean:.0f} degrees", hypot(*(g - exact * n for g, n in zip(got, normal))) / exact, 1e-9)
+            clean(r)
 
 
 def test_a_disc_rolls_on_a_contact_wall():
