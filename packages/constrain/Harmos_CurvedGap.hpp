@@ -54,6 +54,14 @@ struct SideArc
   static constexpr double reach = 2.0; // along the side; cells beyond have no weight [cells]
 };
 
+/// How far the ends of a chord L stand out of an arc that bounds the same volume: curvature L^2 / 12, for the longest
+/// chord of a cell, L^2 = 2. [cells]
+KOKKOS_INLINE_FUNCTION double standOut(double curvature)
+{
+  constexpr double longest_chord_squared = 2.0;
+  return curvature * longest_chord_squared / 12.0;
+}
+
 /// Weighted least squares over the cells c of a side, with the means t_c, y_c, s_c = mean t^2 - t_c^2 of their facets
 /// and the slope of the line through them,
 ///
@@ -63,9 +71,11 @@ struct SideArc
 /// once, and again less what the fourth order of the first fit's arc adds. r_c = 0 is the same volume below the arc as
 /// below the cell's facets. Where two bodies meet in a cell a piece of facet does not hold its body's volume, all
 /// pieces of the cell together do: so cells are fitted. At least three of them, with 1.2 cells of weighted length.
+/// The side is smooth where the root mean square of r_c is below 0.005 cells, or below 3/8 of standOut: what has
+/// moved through the mesh as chords has lost as much of its arc.
 KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
 {
-  constexpr double least_length = 1.2, most_miss = 5e-3; // [cells]
+  constexpr double least_length = 1.2, most_miss = 5e-3, miss_over_stand_out = 0.375; // [cells]
   constexpr int least_cells = 3;
   ParabolaFit fit;
   double length = 0.0, miss = 0.0;
@@ -110,17 +120,17 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
         double const r = y - fit.alpha[0] - fit.beta * t - 0.5 * fit.gamma * (t * t + spread);
         miss += w * r * r;
       });
-  return {fit.alpha[0], fit.gamma, miss <= most_miss * most_miss * length};
+  double const most = Math::max(most_miss, miss_over_stand_out * standOut(Math::fabs(fit.gamma)));
+  return {fit.alpha[0], fit.gamma, miss <= most * most * length};
 }
-
-/// The squared chord of a cell at most, whose ends stand out of an arc by longest_chord_squared / (12 R). [cells^2]
-constexpr double longest_chord_squared = 2.0;
 
 /// \brief Void between two smooth sides that curve away from each other, at a point where their facets meet. [cells]
 ///
 /// The facet of a curved side is a chord, whose ends lie outside of the arc by L^2 / (12 R): two bodies share pieces of
 /// them while there is still void between their arcs. The arcs of both sides (fitSide) tell how much: to 1e-3
 /// cells for discs of four and five cells' radius.
+///
+/// A chord that the other side's facet cuts off at one end holds its volume by standing out more: up to twice standOut.
 ///
 /// \param at Segment whose point it is, of the side that n leaves.
 /// \param other Material of the other side.
@@ -146,7 +156,7 @@ KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegmen
                });
   SideArc const a = fitSide(side[0]), b = fitSide(side[1]);
   double const gap = b.height - a.height, opening = b.curvature - a.curvature;
-  return a.smooth && b.smooth && gap > 0.0 && gap <= opening * longest_chord_squared / 12.0 ? gap : 0.0;
+  return a.smooth && b.smooth && gap > 0.0 && gap <= 2.0 * standOut(opening) ? gap : 0.0;
 }
 
 /// \brief Void between a corner and a smooth convex side, which its facets leave too little of: the gap to the facet at
@@ -171,7 +181,7 @@ KOKKOS_INLINE_FUNCTION double gapAboveArc(SegmentBins const &bins, InterfaceSegm
                });
   SideArc const arc = fitSide(side);
   double const beyond = -arc.height * h - gap;
-  return arc.smooth && beyond > 0.0 && beyond <= -arc.curvature * h * longest_chord_squared / 12.0 ? gap + beyond : gap;
+  return arc.smooth && beyond > 0.0 && beyond <= standOut(-arc.curvature) * h ? gap + beyond : gap;
 }
 
 } // namespace Harmos
