@@ -50,6 +50,7 @@ struct SideArc
 {
   double height, curvature; // alpha, gamma
   bool smooth;              // the facets lie on it
+  bool even;                // and turn as it does
 
   static constexpr double reach = 2.0; // along the side; cells beyond have no weight [cells]
 };
@@ -71,14 +72,16 @@ KOKKOS_INLINE_FUNCTION double standOut(double curvature)
 /// once, and again less what the fourth order of the first fit's arc adds. r_c = 0 is the same volume below the arc as
 /// below the cell's facets. Where two bodies meet in a cell a piece of facet does not hold its body's volume, all
 /// pieces of the cell together do: so cells are fitted. At least three of them, with 1.2 cells of weighted length.
-/// The side is smooth where the root mean square of r_c is below 0.005 cells, or below 3/8 of standOut: what has
-/// moved through the mesh as chords has lost as much of its arc.
+/// The side is smooth where the root mean square of r_c is below 0.005 cells. What has moved through the mesh as chords
+/// has lost more of its arc: 3/8 of standOut where the side is even, the root mean square of slope_c - beta - gamma t_c
+/// below 0.02 or 0.3 gamma (of a corner, which four cells' means cannot tell from an arc, 0.5 gamma).
 KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
 {
   constexpr double least_length = 1.2, most_miss = 5e-3, miss_over_stand_out = 0.375; // [cells]
+  constexpr double most_turn = 0.02, turn_over_curvature = 0.3;
   constexpr int least_cells = 3;
   ParabolaFit fit;
-  double length = 0.0, miss = 0.0;
+  double length = 0.0, miss = 0.0, turn = 0.0, turning = 0.0;
   int taken = 0;
   auto const forEachCell = [&](auto const &visit)
   {
@@ -111,17 +114,22 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
         });
     length = m.of_side[0][0];
     if (side.overflown || taken < least_cells || length < least_length)
-      return {0.0, 0.0, false};
+      return {0.0, 0.0, false, false};
     fit = fitParabola(m, 0.0);
   }
   forEachCell(
-      [&](double w, double t, double spread, double y, double)
+      [&](double w, double t, double spread, double y, double slope)
       {
         double const r = y - fit.alpha[0] - fit.beta * t - 0.5 * fit.gamma * (t * t + spread);
+        double const off = slope - fit.beta - fit.gamma * t;
         miss += w * r * r;
+        turn += w * spread * off * off;
+        turning += w * spread;
       });
-  double const most = Math::max(most_miss, miss_over_stand_out * standOut(Math::fabs(fit.gamma)));
-  return {fit.alpha[0], fit.gamma, miss <= most * most * length};
+  double const most_off = Math::max(most_turn, turn_over_curvature * Math::fabs(fit.gamma));
+  bool const even = turn <= most_off * most_off * turning;
+  double const most = even ? Math::max(most_miss, miss_over_stand_out * standOut(Math::fabs(fit.gamma))) : most_miss;
+  return {fit.alpha[0], fit.gamma, miss <= most * most * length, even};
 }
 
 /// \brief Void between two smooth sides that curve away from each other, at a point where their facets meet. [cells]
@@ -130,7 +138,8 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
 /// them while there is still void between their arcs. The arcs of both sides (fitSide) tell how much: to 1e-3
 /// cells for discs of four and five cells' radius.
 ///
-/// A chord that the other side's facet cuts off at one end holds its volume by standing out more: up to twice standOut.
+/// A chord that the other side's facet cuts off at one end holds its volume by standing out more: up to twice standOut,
+/// where both sides are even.
 ///
 /// \param at Segment whose point it is, of the side that n leaves.
 /// \param other Material of the other side.
@@ -156,7 +165,8 @@ KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegmen
                });
   SideArc const a = fitSide(side[0]), b = fitSide(side[1]);
   double const gap = b.height - a.height, opening = b.curvature - a.curvature;
-  return a.smooth && b.smooth && gap > 0.0 && gap <= 2.0 * standOut(opening) ? gap : 0.0;
+  double const most = (a.even && b.even ? 2.0 : 1.0) * standOut(opening);
+  return a.smooth && b.smooth && gap > 0.0 && gap <= most ? gap : 0.0;
 }
 
 /// \brief Void between a corner and a smooth convex side, which its facets leave too little of: the gap to the facet at

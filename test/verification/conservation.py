@@ -45,4 +45,5 @@ def test_heat_returned_by_the_remap_closes_the_total_energy():
     clean(plain, heated)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

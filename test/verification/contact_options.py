@@ -132,4 +132,5 @@ def test_every_placement_gives_way_to_walls_that_hold_everything_across():
             assert abs(momentum / found["midpoint"] - 1.0) < 1e-5, (placement, momentum)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

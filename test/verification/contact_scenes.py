@@ -106,8 +106,8 @@ def loaded_width(shift):
     return (width - hertz_width(force, 0.4, 6.75e10, 2.7e10)) / h
 
 
-# Hertz' width is 2.8 cells there; four placements gave -1.1, -0.6, -0.3 and -0.1 (with solids' stress along the means of cut
-# cells -0.3, -0.7, -0.6 and -0.4).
+# Hertz' width is 2.8 cells there; at one instant four placements gave -2.0, -0.6, -0.3 and -0.1 (with solids' stress along the means of
+# cut cells -0.3, -0.7, -0.6 and -0.4).
 def test_discs_touch_over_the_width_that_hertz_says_to_a_cell():
     error = sorted(loaded_width((0.21 * i, 0.105 * i)) for i in range(4))
     print("  in cells:", ", ".join(f"{e:.2f}" for e in error))

@@ -116,4 +116,5 @@ def test_a_contact_wall_bears_a_corner():
         clean(r)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

@@ -90,4 +90,5 @@ def test_upper_and_lower_half_are_mirror_images_while_round_off_is_small():
     check("volume fractions, apart, the largest", fractions[4], 0.05)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

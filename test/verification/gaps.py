@@ -204,4 +204,5 @@ def test_a_bar_strikes_the_same_body_again_after_it_has_parted():
     clean(r)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

@@ -211,4 +211,5 @@ def test_leaving_the_range_is_a_warning_with_its_place():
     clean(r)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

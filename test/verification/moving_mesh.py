@@ -174,4 +174,5 @@ def test_what_makes_no_sense_is_refused():
         assert words in r.text, r.text
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

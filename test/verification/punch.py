@@ -29,4 +29,5 @@ def test_a_flat_punch_bears_the_load_of_prandtl():
     check("with 10 over with 5 cells, what is too much", (fine - 1.0) / (coarse - 1.0), 0.8)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

@@ -147,4 +147,5 @@ def test_two_bars_rebound_without_a_loss_at_the_contact():
         assert found[0.0][0] > 5e-3
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

@@ -146,4 +146,5 @@ def test_full_turn_and_half_turn_are_both_known():
     by_method("vortex/deck.yaml", {**cells(64), **turn}, [2e-3, 8e-3, 1e-2])
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

@@ -144,4 +144,5 @@ def test_what_makes_no_sense_is_refused():
     assert "unknown" in remap(limitor="none", expect=2).lower()
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

@@ -358,4 +358,5 @@ def test_iterations_stay_below_fifty_where_many_places_settle():
             check("cycles that missed the tolerance", found["missed"], 0)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

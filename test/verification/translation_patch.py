@@ -33,4 +33,5 @@ def test_first_order_and_youngs_translate_too():
     clean(r)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

@@ -214,4 +214,5 @@ def test_unequal_impedances_share_the_stress():
     clean(r)
 
 
-run(globals())
+if __name__ == "__main__":
+    run(globals())

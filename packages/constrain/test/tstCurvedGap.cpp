@@ -150,6 +150,24 @@ TEST(CurvedGap, arcsThatOverlap_haveNone)
   EXPECT_EQ(gapOf(twoArcs(4.0, 5.0, -0.01, 0.0), atPoint(0.0)), 0.0);
 }
 
+TEST(CurvedGap, chordsThatHaveDrifted_areStillArcs)
+{
+  std::vector<InterfaceSegment> drifted = twoArcs(4.0, 5.0, 0.02, 0.0);
+  for (std::size_t i = 0; i < drifted.size(); ++i)
+  {
+    Vector2 const by = (i % 4 < 2 ? 0.01 : -0.01) * cell_size * turned({0.0, 1.0});
+    drifted[i].midpoint = drifted[i].midpoint + by;
+    drifted[i].point = drifted[i].point + by;
+  }
+  EXPECT_NEAR(gapOf(drifted, atPoint(0.0)), 0.02, 0.02);
+  EXPECT_GT(gapOf(drifted, atPoint(0.0)), 0.0);
+}
+
+TEST(CurvedGap, chordsThatAreCutOff_standOutTwiceAsFar)
+{
+  EXPECT_NEAR(gapOf(twoArcs(16.0, 16.0, 0.03, 0.0), atPoint(0.0)), 0.03, 1e-3);
+}
+
 TEST(CurvedGap, moreThanChordsExplain_isNotBelieved)
 {
   EXPECT_EQ(gapOf(twoArcs(20.0, 20.0, 0.05, 0.0), atPoint(0.0)), 0.0);
