@@ -103,6 +103,11 @@ def test_all_solvers_give_the_same_slide():
     clean(first)
 
 
+def test_penalty_and_nitsche_rub_too():
+    for constraint in ("{method: penalty, penalty: 0.3}", "{method: nitsche}"):
+        slide(20.0, 0.2, 1e-2, end=0.3, **{"numerics/constraint": constraint})
+
+
 def test_a_disc_rubs_its_way_through_a_plate_in_few_iterations():
     # Few multipliers, curved interfaces: where friction's bounds only follow, some of these cycles never end.
     for friction, cycles in ((0.2, 40), (0.25, 40), (0.5, 40), (1.0, 40)):
