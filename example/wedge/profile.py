@@ -24,7 +24,7 @@ def draw_bodies(axes, results, value, label, limits):
     """The polygons of what is deformed, coloured by value(pairs) within limits, and the outline of the wedge."""
     with h5py.File(sorted(results.glob("fields_*.h5"))[-1]) as file:
         pairs = file["pairs"]
-        ends, body, vertices = pairs["polygon_end"][()], pairs["body"][()] if "body" in pairs else pairs["material"][()], pairs["vertex"][()]
+        ends, body, vertices = pairs["polygon_end"][()], pairs["material"][()], pairs["vertex"][()]
         shade = value(pairs)
     polygons = numpy.split(vertices, ends[:-1])
     soft = [i for i in range(len(body)) if body[i] == body.min()]

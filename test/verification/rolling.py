@@ -122,23 +122,20 @@ def test_a_pin_takes_its_ring_along():
         clean(r)
 
 
+def box_on_slope(angle, start, size):
+    """A free box that stands on the ground of on_slope, the middle of its lower side `start` up the slope."""
+    a = radians(angle)
+    middle = (start * cos(a) - 0.5 * size[1] * sin(a), 0.011 + start * sin(a) + 0.5 * size[1] * cos(a))
+    return f"{{material: hard, shape: rectangle, center: {list(middle)}, size: {list(size)}, angle: {angle}, motion: free}}"
+
+
 def test_a_box_slides_down_a_slope_without_turning():
     angle, friction = radians(20.0), 0.2
-    middle = (0.5 * cos(angle) - 0.1 * sin(angle), 0.011 + 0.5 * sin(angle) + 0.1 * cos(angle))
-    box = f"{{material: hard, shape: rectangle, center: [{middle[0]!r}, {middle[1]!r}], size: [0.4, 0.2], angle: 20.0, motion: free}}"
-    r = harmos(DECK, {**on_slope(20.0), "bodies/disc": box, "interactions/coefficient": friction})
+    r = harmos(DECK, {**on_slope(20.0), "bodies/disc": box_on_slope(20.0, 0.5, (0.4, 0.2)), "interactions/coefficient": friction})
     speed, spin = motion(r)
     check("speed", abs(speed / (G * (sin(angle) - friction * cos(angle)) * r.time_of_velocities()) - 1.0), 1e-8)
     check("spin", spin, 1e-6)
     clean(r)
-
-
-def block_on_slope(angle, size):
-    """A box of the given size that stands on the ground, inclined by `angle`, and the middle of its lower side."""
-    a = radians(angle)
-    foot = (0.3 * cos(a), 0.011 + 0.3 * sin(a))
-    middle = (foot[0] - 0.5 * size[1] * sin(a), foot[1] + 0.5 * size[1] * cos(a))
-    return f"{{material: hard, shape: rectangle, center: [{middle[0]!r}, {middle[1]!r}], size: {list(size)}, angle: {angle}, motion: free}}"
 
 
 def test_a_slender_box_topples_where_the_slope_is_steeper_than_width_over_height():
@@ -147,7 +144,7 @@ def test_a_slender_box_topples_where_the_slope_is_steeper_than_width_over_height
     balance, r0 = atan2(width, height), 0.5 * hypot(width, height)
     for angle in (21.6, 21.9, 25.0):
         start = radians(angle) - balance
-        r = harmos(DECK, {**on_slope(angle), "bodies/disc": block_on_slope(angle, (width, height)), "interactions/coefficient": 1.0,
+        r = harmos(DECK, {**on_slope(angle), "bodies/disc": box_on_slope(angle, 0.3, (width, height)), "interactions/coefficient": 1.0,
                           "run/end_time": 0.3, "run/max_dt": 1e-3})
         speed = hypot(r.last("disc.momentum_x"), r.last("disc.momentum_y")) / r.last("disc.mass")
         q, rate, t, step = start, 0.0, 0.0, 1e-5
