@@ -16,7 +16,8 @@ namespace Harmos
 /// What bounds the gradients (doc/theory/remap.md).
 enum class RemapLimiter : int
 {
-  Range = 0,       // no value that is remapped leaves the range of the donor and its neighbours
+  Range = 0,       // no value that is remapped leaves the range of the donor and its neighbours; by intersection,
+                   // velocities of solids go as far beyond it as they are linear around (decision 0040)
   RangeInside = 1, // at the mesh's boundary that goes on to the mirrored value of the cell opposite (decision 0011);
                    // the default of decks
   VanLeer = 2,     // halfway to each neighbour beyond a face, between the two values; overshoots in two dimensions

@@ -5,7 +5,7 @@
 #include <detail/Harmos_Donors.hpp>
 
 #include <Harmos_AreaWeight.hpp>
-#include <detail/Harmos_LinearFit.hpp>
+#include <detail/Harmos_CornerFit.hpp>
 #include <detail/Harmos_OverlayList.hpp>
 #include <detail/Harmos_RangeLimit.hpp>
 
@@ -237,7 +237,8 @@ struct PolynomialFinder
   KOKKOS_INLINE_FUNCTION void gradient(int cell, int donor, StageFields const &q, Gradient &g,
                                        FaceNeighbours &beyond) const
   {
-    LinearFit of_record, of_corner;
+    LinearFit of_record;
+    CornerFit of_corner;
     Vector2 const centroid{donors.shape(donor, 1), donors.shape(donor, 2)}, centre = cellCentre(donor);
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
     {
@@ -261,28 +262,13 @@ struct PolynomialFinder
     }
     of_record.solve(g.x.record, g.y.record);
     of_corner.solve(g.x.corner, g.y.corner);
-    shareRange(g.lower.corner, g.upper.corner);
-  }
-
-  /// The four corners of a cell may have each other's velocities: at the rim of a body, beyond which there is no cell
-  /// of it, a corner's own would not leave a linear field alone.
-  KOKKOS_INLINE_FUNCTION static void shareRange(FieldPack &lower, FieldPack &upper)
-  {
-    double low[8], high[8];
-    lower.store(low);
-    upper.store(high);
-    for (int d = 0; d < 2; ++d)
-    {
-      double const least = Math::min(Math::min(low[d], low[2 + d]), Math::min(low[4 + d], low[6 + d]));
-      double const most = Math::max(Math::max(high[d], high[2 + d]), Math::max(high[4 + d], high[6 + d]));
-      for (int k = 0; k < 4; ++k)
-      {
-        low[2 * k + d] = least;
-        high[2 * k + d] = most;
-      }
-    }
-    lower = FieldPack(low);
-    upper = FieldPack(high);
+    Vector2 corner[4];
+    for (int k = 0; k < 4; ++k)
+      corner[k] = in.startNode(in.mesh.cell_node(cell, k));
+    double linear[2] = {0.0, 0.0};
+    if (in.materials(donors.head(donor).material).strength != StrengthKind::None)
+      of_corner.linearity(corner, q.corner, g.x.corner, g.y.corner, linear);
+    shareRange(q.corner, linear, g.lower.corner, g.upper.corner);
   }
 
   /// The largest part of gradients, at most all, that halfway to each neighbour keeps the values between theirs.
@@ -437,7 +423,8 @@ struct PolynomialFinder
     widenFields(q.record, n.value.record, least, largest, g.lower.record, g.upper.record);
     widenFields(q.corner, n.value.corner, least + first_corner_field, largest + first_corner_field, g.lower.corner,
                 g.upper.corner);
-    shareRange(g.lower.corner, g.upper.corner);
+    double const as_is[2] = {0.0, 0.0};
+    shareRange(q.corner, as_is, g.lower.corner, g.upper.corner);
   }
 
   /// Of a moving donor of `cell`.

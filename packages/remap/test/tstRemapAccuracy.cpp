@@ -261,9 +261,12 @@ TEST(Bounds, stripOfDustAndMetal_leavesPositiveMasses)
 }
 
 /// Part of the kinetic energy of a disc in solid rotation that a remap takes, for each cell that its rim travels.
-double spinningLoss(int n)
+double spinningLoss(int n, StrengthKind strength, RemapOptions const &options)
 {
-  Scene scene(n, n, 0.0, twoLaws());
+  std::vector<Material> laws = twoLaws();
+  laws[0].strength = strength;
+  Scene scene(n, n, 0.0, laws);
+  scene.options = options;
   Vector2 const middle{0.507, 0.512};
   double const radius = 1.0 / 3.0, travel = 0.1; // cells at the rim
   scene.paint(
@@ -279,9 +282,49 @@ double spinningLoss(int n)
 // between the centroids of what is filled in stage 2, it is 3.8e-3 at 16 cells.
 TEST(Accuracy, discInSolidRotation_losesLittleAtItsRim)
 {
-  double const coarse = spinningLoss(16), fine = spinningLoss(32);
+  double const coarse = spinningLoss(16, StrengthKind::None, {}), fine = spinningLoss(32, StrengthKind::None, {});
   std::printf("kinetic energy lost for a cell's travel: %.3g, %.3g\n", coarse, fine);
   EXPECT_GE(fine, -1e-3);
   EXPECT_LE(coarse, 1e-3);
   EXPECT_LE(fine, 0.25 * coarse);
+}
+
+// Beyond the rim there is nothing to tell the range of velocities, but what has strength turns as it does inside
+// (CornerFit::linearity): the limiter leaves all of it.
+TEST(Accuracy, solidDiscInSolidRotation_losesNothingToTheLimiter)
+{
+  for (int order : {2, 3})
+    for (int n : {16, 32})
+    {
+      RemapOptions limited, free;
+      limited.order = free.order = order;
+      free.limiter = RemapLimiter::None;
+      double const loss = spinningLoss(n, StrengthKind::Elastic, limited);
+      double const least = spinningLoss(n, StrengthKind::Elastic, free);
+      std::printf("order %d, %d cells: %.3g, without limiter %.3g\n", order, n, loss, least);
+      EXPECT_NEAR(loss, least, 1e-12);
+      EXPECT_GE(spinningLoss(n, StrengthKind::None, limited), least + 1e-5);
+    }
+}
+
+// The halves of a disc part at its middle: that is no slope, and no velocity leaves the range of the two.
+TEST(Bounds, solidDiscWhoseHalvesPart_keepsItsVelocitiesWithinTheirRange)
+{
+  std::vector<Material> laws = twoLaws();
+  laws[0].strength = StrengthKind::Elastic;
+  for (double angle : {0.0, 0.3, 0.7})
+    for (int order : {2, 3})
+    {
+      Scene scene(16, 16, 0.0, laws);
+      scene.options.order = order;
+      Vector2 const middle{0.507, 0.512}, n{std::cos(angle), std::sin(angle)};
+      scene.paint(
+          {disc(0, middle, 1.0 / 3.0)}, [](int, Vector2 const &) { return 1.0; },
+          [](int, Vector2 const &) { return 1.0; });
+      scene.move([&](int, Vector2 const &x) { return (dot(x - middle, n) < 0.0 ? -0.005 : 0.005) * n; });
+      ResultOnHost const result = scene.remapped();
+      for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
+        EXPECT_LE(std::abs(dot({result.state.velocity(dof, 0), result.state.velocity(dof, 1)}, n)),
+                  0.005 * (1 + 1e-12));
+    }
 }
