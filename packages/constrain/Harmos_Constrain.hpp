@@ -20,7 +20,7 @@ namespace Harmos
 /// One multiplier (two with a bond or friction): material_a inside, material_b outside, n leaves a.
 struct ContactRow
 {
-  long long key;              // global cell of the slave segment * 64 + its number there: the order of all sums
+  long long key; // global cell of the slave segment * max_cell_rows + its number there: the order of all sums
   int material_a, material_b; // material_b = -1: a contact wall
   int body_a, body_b;         // number of the rigid body, -1: deformable, -2: wall
   int cell_a, cell_b;         // local cells of the slave segment and of the surface that it faces
@@ -35,6 +35,8 @@ struct ContactRow
   double restitution; // of the closing speed
   int bond;           // number of the nearest bond of a pair whose bonds can break, -1: none
 
+  /// Whether it holds a node to its own body (Harmos_TipTies.hpp).
+  KOKKOS_INLINE_FUNCTION bool isWithinBody() const { return material_a == material_b; }
   /// What the bodies may come closer in the step. An overlap is not pushed out.
   KOKKOS_INLINE_FUNCTION double opening() const { return Math::max(gap, 0.0) + bend; }
 };

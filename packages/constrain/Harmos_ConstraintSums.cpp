@@ -146,6 +146,8 @@ void addRow(ContactRow const &row, RowWork const &work, double normal_impulse, b
       sums.external()[1] -= impulse[1];
     }
   }
+  if (row.isWithinBody())
+    return;
   double const length = loaded ? row.length : 0.0;
   addPair(sums.pair(row.material_a, row.material_b), -work.impulse, normal_impulse, length);
   addPair(sums.pair(row.material_b, row.material_a), work.impulse, normal_impulse, length);

@@ -2,6 +2,7 @@
 #include <Harmos_ContactRows.hpp>
 #include <Harmos_PressureTractions.hpp>
 #include <Harmos_RowBuilder.hpp>
+#include <Harmos_TipTies.hpp>
 
 namespace Harmos
 {
@@ -63,6 +64,11 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
         }
       },
       rows.num_multipliers);
+  if (builder.corners.count > 0 && options.method == ConstraintMethod::Multipliers &&
+      !sharesMultipliers(options.placement))
+    addTipTies(
+        findTipTies(mesh, pairs, dof_nodes, regions, segments, builder.corners, bodies, options, conditions, work),
+        rows, work);
   return rows;
 }
 

@@ -40,7 +40,7 @@ struct Motion
 struct PressureTractions; // Harmos_PressureTractions.hpp
 
 /// Numbers of the rows of one cell are below this; key = global cell * max_cell_rows + number.
-constexpr int max_cell_rows = 2 * max_cell_segments;
+constexpr int max_cell_rows = 4 * max_cell_segments;
 
 /// Room for packed rows of `width` numbers; `total` = the last of the offsets.
 PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArrays const &work);
@@ -58,7 +58,7 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 /// Of short pieces of facets that meet where both sides are smooth arcs the gap is that of the arcs (curvedGap).
 ///
 /// A corner of a deformable solid above a face of another has one row, with the face as slave, in the place of those of
-/// that segment and of its edges (CornerContacts).
+/// that segment and of its edges (CornerContacts), and its light nodes are tied to the body behind them (TipTies).
 ///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
 /// on segments shorter than shortest_segment (but where short_segments keeps them), on cell faces exposed by less than

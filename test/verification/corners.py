@@ -4,6 +4,8 @@ from math import cos, hypot, radians, sin, sqrt
 from random import Random
 
 from harness import ROOT, check, clean, harmos, read_columns, run
+from lagrangian_contact import rectangle
+from lagrangian_contact import scene as fitted_scene
 
 H = 0.01
 SPEED = 20.0  # at which corners come down [m/s]
@@ -98,6 +100,44 @@ def test_corners_that_rub_bear_the_coefficient_of_friction():
         for _ in range(6):
             ratio, _ = struck(Scene(random, (5.0, 85.0)), random.uniform(-1.0, 1.0), 100.0, rigid, "{default: friction, coefficient: 0.3}")
             check(f"rigid: {rigid}: along over normal impulse, less -0.3", abs(ratio + 0.3), 5e-3)
+
+
+def bounced(r, normal=(0.0, 1.0)):
+    """Impulse on the square along the face's normal, over m V, and the kinetic energy at the end, over that at the start."""
+    impulse = sum((r[f"two.momentum_{x}"][-1] - r[f"two.momentum_{x}"][0]) * n for x, n in zip("xy", normal))
+    found = impulse / (r.first("two.mass") * SPEED), r.last("kinetic_energy") / r.first("kinetic_energy")
+    clean(r)
+    return found
+
+
+def body_fitted(lean, gap, end_time, rigid):
+    """The same with a mesh of 20 x 20 cells in the square, which its corner and its sides follow."""
+    t, half = radians(lean), 0.05
+    corners = [(p * cos(t) - q * sin(t), p * sin(t) + q * cos(t)) for p in (-half, half) for q in (-half, half)]
+    low = min(corners, key=lambda c: c[1])
+    fixed = ", motion: fixed" if rigid == "one" else ""
+    return bounced(fitted_scene(
+        {"one": rectangle("platen" if fixed else "aluminium", (0.0, -half), (0.2, 0.1), cells=(40, 20), more=fixed),
+         "two": rectangle("aluminium", (-low[0], gap * H - low[1]), (0.1, 0.1), lean, (0.0, -SPEED), (20, 20))}, end_time, size=0.3,
+        **{"materials/aluminium": "{eos: stiffened, density: 7800.0, sound_speed: 4600.0, strength: elastic, shear_modulus: 80.0e9}", "output/fields/every_time": 0.0}))
+
+
+# Until the light nodes of tips went with the body behind them: impulse 0.92 and 0.96 in the mean and 0.69 and 0.85 at least of the body-fitted
+# one, energy 0.86 and 0.84 in the mean and 0.63 and 0.55 at least (24 squares): hourglass viscosity made heat of it.
+def test_a_corner_bounces_as_a_body_fitted_one_does():
+    for rigid, least_impulse, least_energy in ((None, 0.9, 0.8), ("one", 0.94, 0.83)):
+        ratios = []
+        for seed in range(12):
+            random, gap = Random(seed), 0.3
+            scene, along, end_time = Scene(random, (5.0, 85.0)), random.uniform(-1.0, 1.0), gap * H / SPEED + 3e-4
+            found = bounced(scene.run(along, gap, (0.0, -SPEED), end_time, rigid), scene.normal)
+            ratios.append([a / b for a, b in zip(found, body_fitted(scene.lean, gap, end_time, rigid))])
+        impulse, energy = ([ratio[k] for ratio in ratios] for k in (0, 1))
+        print(f"  rigid: {rigid}: impulse over the body-fitted one's {min(impulse):.3f} to {max(impulse):.3f}, mean {sum(impulse) / 12:.3f}; "
+              f"kinetic energy that is left {min(energy):.3f} to {max(energy):.3f}, mean {sum(energy) / 12:.3f}")
+        check("what the least impulse lacks", 1.0 - min(impulse), 1.0 - least_impulse)
+        check("beyond the body-fitted one", max(impulse) - 1.0, 0.1)
+        check("what the least energy lacks", 1.0 - min(energy), 1.0 - least_energy)
 
 
 # With rows in the middle of facets up to 0.38 cells late.

@@ -243,8 +243,9 @@ def measure(quick, jobs):
         for cut in cuts:
             f["stable Courant, cut " + f"{cut:.0e}"] = largest_courant(method, upright(cut))[0]
         for contrast in contrasts[1:]:
-            f[f"stable Courant, density {contrast:.0e}"] = largest_courant(method, upright(1e-4, density=contrast))[0]
-            f[f"stable Courant, stiffness {contrast:.0e}"] = largest_courant(method, upright(1e-4, stiffness=contrast))[0]
+            for factor in contrast, 1.0 / contrast:
+                f[f"stable Courant, density {factor:.0e}"] = largest_courant(method, upright(1e-4, density=factor))[0]
+                f[f"stable Courant, stiffness {factor:.0e}"] = largest_courant(method, upright(1e-4, stiffness=factor))[0]
         for angle, shear in OBLIQUE[-1:] if quick else OBLIQUE:
             name = f"{angle:.0f} degrees" + ("" if shear > 0.0 else ", no strength")
             f[f"stable step, {name}"] = largest_courant(method, oblique(angle, shear))[1]
@@ -383,7 +384,7 @@ def write(found, sections, folder):
 
 EXPLANATION = """- **stable Courant**: the largest of 0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.999 at which two blocks under stored elastic energy, without any viscosity, never hold more kinetic energy than was stored, by 5%, over 400 cycles; the interface
   lies the given part of a cell beyond a cell face (`decks/sliver.yaml`). The material alone (`single`) is stable at 0.999 too, the largest tried (decks take less than 1), and so are multipliers at midpoints and mortar multipliers at all seven cuts. 0: at none of them.
-- **stable Courant, density and stiffness**: the same where the right block is denser or stiffer by the factor, at a cut of 1e-4 of a cell.
+- **stable Courant, density and stiffness**: the same where the right block is denser or stiffer by the factor, at a cut of 1e-4 of a cell. Below one it is the sliver that is denser or stiffer.
 - **stable step**: the same two blocks, alike, with an interface at 20 and 45 degrees to the mesh, and without shear strength: the mean step at the largest Courant number that is stable, over the time in which a wave crosses a cell.
   Parts of cut cells can have steeper gradients than their cells, and the step heeds them ([decision 0028](decisions/0028-steps-that-edges-allow.md)): where multipliers are below 0.999 the step was shortened, not the run lost.
 - **ringing blocks**: the same two blocks, elastic, at Courant 0.5 and 20, 45 and 70 degrees, tied (`interactions: {default: bonded}`) or sliding, so that the pressure between them falls to nothing in each period: energy that contact has taken or given after 400 cycles at most, over what was stored, the worst angle ([decision 0035](decisions/0035-pieces-of-a-line-are-one.md)). Exact is none, but for what is lost as sides that have parted meet again.

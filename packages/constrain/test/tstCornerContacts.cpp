@@ -65,14 +65,14 @@ RigidBody rigidBody(int material)
   return body;
 }
 
-/// The row of the least gap near a foot; all others there are further apart.
+/// The row between bodies of the least gap near a foot; all others there are further apart.
 ContactRow nearestRow(std::vector<ContactRow> const &rows, Vector2 const &foot)
 {
   ContactRow nearest = {};
   nearest.gap = 1e300;
   int count = 0;
   for (ContactRow const &row : rows)
-    if (norm(row.point - foot) < 0.4)
+    if (!row.isWithinBody() && norm(row.point - foot) < 0.4)
     {
       count += std::fabs(row.gap - nearest.gap) < 1e-6 ? 1 : 0;
       nearest = row.gap < nearest.gap ? row : nearest;
@@ -246,4 +246,110 @@ TEST(CornerContacts, bondedMaterials_keepTheRowsOfTheirFacets)
   scene.setInteraction(0, 1, bonded);
   for (ContactRow const &row : rowsOf(scene))
     EXPECT_EQ(row.material_a, 0);
+}
+
+namespace
+{
+
+std::vector<ContactRow> tiesOf(TinyScene const &scene)
+{
+  std::vector<ContactRow> ties;
+  for (ContactRow const &row : rowsOf(scene))
+    if (row.isWithinBody())
+      ties.push_back(row);
+  return ties;
+}
+
+/// Of the corner of a body at a node, in filled cells.
+double massAt(TinyScene const &scene, int dof)
+{
+  return onHost(scene.dof_mass)(dof);
+}
+
+} // namespace
+
+TEST(TipTies, lightNodesOfATip_goWithTheLinearVelocityOfACellBehindThem)
+{
+  int count = 0;
+  for (double const angle : {0.0, 0.3, 0.7})
+    for (double const lean : {pi / 4, pi / 6, 0.4 * pi})
+      for (double const along : {0.0, 0.15, 0.43})
+      {
+        TinyScene const scene = cornerAboveFace({angle}, along, 0.003, lean);
+        auto const x = onHost(scene.mesh.node_position);
+        auto const node = onHost(scene.dof_nodes.node);
+        for (ContactRow const &tie : tiesOf(scene))
+        {
+          ++count;
+          EXPECT_EQ(tie.material_a, 1);
+          EXPECT_EQ(tie.tied, 1);
+          double weight = 0.0;
+          Vector2 place{0.0, 0.0};
+          for (int k = 0; k < 4; ++k)
+          {
+            weight += tie.weight_b[k];
+            place += tie.weight_b[k] * Vector2{x(node(tie.dof_b[k]), 0), x(node(tie.dof_b[k]), 1)};
+            if (tie.weight_a[k] == 0.0)
+              continue;
+            EXPECT_EQ(tie.weight_a[k], 1.0);
+            EXPECT_LT(massAt(scene, tie.dof_a[k]), 0.4);
+            EXPECT_EQ(tie.point[0], x(node(tie.dof_a[k]), 0));
+            EXPECT_EQ(tie.point[1], x(node(tie.dof_a[k]), 1));
+            for (int l = 0; l < 4; ++l)
+              EXPECT_NE(tie.dof_b[l], tie.dof_a[k]);
+          }
+          EXPECT_NEAR(weight, 1.0, 1e-14);
+          EXPECT_LT(norm(place - tie.point), 1e-13);
+        }
+      }
+  EXPECT_GE(count, 27);
+}
+
+TEST(TipTies, cornerThatComes_keepsMomentumAndItsLightNodesFollow)
+{
+  Frame const frame{0.7};
+  TinyScene scene = cornerAboveFace(frame, 0.75, 0.003, pi / 6);
+  scene.dt = 1.0;
+  scene.setVelocity(
+      [&](int material, Vector2 const &) {
+        return material == 1 ? -0.015 * frame.normal() : Vector2{0.0, 0.0};
+      });
+  ConstraintReport const report = scene.constrain();
+  auto const before = scene.sums(scene.predicted, -2), after = scene.sums(scene.half, -2);
+  EXPECT_LT(norm(after.momentum - before.momentum), 1e-15);
+  EXPECT_NEAR(after.angular, before.angular, 1e-14);
+  EXPECT_LT(after.kinetic, before.kinetic);
+  // No node is thrown out of the corner's way: without ties one leaves the face at 0.005.
+  auto const square = scene.sums(scene.half, 1, frame.normal());
+  EXPECT_LT(square.most, -0.004);
+  for (int m = 0; m < 2; ++m) // no force of a body on itself
+    EXPECT_EQ(norm(report.pair_force[static_cast<std::size_t>(m) * 3 + static_cast<std::size_t>(m)].impulse), 0.0);
+}
+
+TEST(TipTies, bodyThatTurns_isLeftAlone)
+{
+  Frame const frame{0.3};
+  TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, pi / 4);
+  scene.setVelocity(
+      [&](int material, Vector2 const &x)
+      {
+        Vector2 const d = x - frame.at(0.1, 0.0);
+        return material == 1 ? Vector2{-0.1 * d[1], 0.1 * d[0]} + 0.1 * frame.normal() : Vector2{0.0, 0.0};
+      });
+  EXPECT_GT(tiesOf(scene).size(), 0u);
+  scene.constrain();
+  auto const half = onHost(scene.half), predicted = onHost(scene.predicted);
+  for (int dof = 0; dof < scene.dof_nodes.num_dof_nodes; ++dof)
+    for (int d = 0; d < 2; ++d)
+      EXPECT_NEAR(half(dof, d), predicted(dof, d), 1e-14);
+}
+
+TEST(TipTies, cornersThatRebound_haveNone)
+{
+  TinyScene scene = cornerAboveFace({0.3}, 0.1, 0.003, pi / 4);
+  EXPECT_GT(tiesOf(scene).size(), 0u);
+  PairInteraction law;
+  law.restitution = 0.5;
+  scene.setInteraction(0, 1, law);
+  EXPECT_EQ(tiesOf(scene).size(), 0u);
 }
