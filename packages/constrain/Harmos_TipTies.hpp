@@ -73,6 +73,12 @@ private:
     return false;
   }
 
+  KOKKOS_INLINE_FUNCTION Vector2 middleOf(int cell) const
+  {
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    return 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));
+  }
+
   /// The cell that moves a node, -1: none.
   KOKKOS_INLINE_FUNCTION int rootOf(int node, int material) const
   {
@@ -89,7 +95,7 @@ private:
         double const part = touches(cell, node) ? 0.0 : filled(cell, material);
         if (part < least_filled)
           continue;
-        double const score = part * Math::sqrt(mesh.cell_area(cell)) / norm(cellMiddle(mesh, cell) - x);
+        double const score = part * Math::sqrt(mesh.cell_area(cell)) / norm(middleOf(cell) - x);
         bool const first = root < 0 || mesh.cell_global(cell) < mesh.cell_global(root);
         if (score > (1.0 + alike) * best || (first && score > (1.0 - alike) * best))
         {
@@ -99,12 +105,6 @@ private:
       }
     }
     return root;
-  }
-
-  static KOKKOS_INLINE_FUNCTION Vector2 cellMiddle(Mesh const &mesh, int cell)
-  {
-    Quadrilateral const q = cellQuadrilateral(mesh, cell);
-    return 0.25 * ((q[0] + q[1]) + (q[2] + q[3]));
   }
 
   /// \return False where corner k of the pair's cell moves enough, has no cell to go with, or is another cell's.
@@ -132,7 +132,7 @@ private:
     row.tied = 1;
     row.bond = -1;
     Quadrilateral const q = cellQuadrilateral(mesh, root);
-    Vector2 const apart = row.point - cellMiddle(mesh, root);
+    Vector2 const apart = row.point - middleOf(root);
     double const per_area = 0.5 / area(q);
     int const moving = pairs.find(root, material);
     for (int l = 0; l < 4; ++l)

@@ -81,6 +81,18 @@ ContactRow nearestRow(std::vector<ContactRow> const &rows, Vector2 const &foot)
   return nearest;
 }
 
+/// A corner 0.003 above a face that comes by 0.015 in the step.
+TinyScene comingCorner(Frame const &frame, double along, double lean)
+{
+  TinyScene scene = cornerAboveFace(frame, along, 0.003, lean);
+  scene.dt = 1.0;
+  scene.setVelocity(
+      [&](int material, Vector2 const &) {
+        return material == 1 ? -0.015 * frame.normal() : Vector2{0.0, 0.0};
+      });
+  return scene;
+}
+
 void expectOneRowAtTheCorner(Frame const &frame, double along, double gap, double lean, int block)
 {
   SCOPED_TRACE(testing::Message() << "face at " << frame.angle << ", corner at " << along << ", " << gap
@@ -120,12 +132,7 @@ TEST(CornerContacts, cornerThatSlidesAlongAFace_isNotFelt)
 TEST(CornerContacts, cornerThatComes_isStoppedOnTheFace)
 {
   Frame const frame{0.3};
-  TinyScene scene = cornerAboveFace(frame, 0.1, 0.003, pi / 4);
-  scene.dt = 1.0;
-  scene.setVelocity(
-      [&](int material, Vector2 const &) {
-        return material == 1 ? -0.015 * frame.normal() : Vector2{0.0, 0.0};
-      });
+  TinyScene scene = comingCorner(frame, 0.1, pi / 4);
   scene.constrain();
   ContactRow const row = nearestRow(rowsOf(scene), frame.at(0.1, 0.0));
   auto const half = onHost(scene.half);
@@ -260,7 +267,7 @@ std::vector<ContactRow> tiesOf(TinyScene const &scene)
   return ties;
 }
 
-/// Of the corner of a body at a node, in filled cells.
+/// In filled cells.
 double massAt(TinyScene const &scene, int dof)
 {
   return onHost(scene.dof_mass)(dof);
@@ -308,12 +315,7 @@ TEST(TipTies, lightNodesOfATip_goWithTheLinearVelocityOfACellBehindThem)
 TEST(TipTies, cornerThatComes_keepsMomentumAndItsLightNodesFollow)
 {
   Frame const frame{0.7};
-  TinyScene scene = cornerAboveFace(frame, 0.75, 0.003, pi / 6);
-  scene.dt = 1.0;
-  scene.setVelocity(
-      [&](int material, Vector2 const &) {
-        return material == 1 ? -0.015 * frame.normal() : Vector2{0.0, 0.0};
-      });
+  TinyScene scene = comingCorner(frame, 0.75, pi / 6);
   ConstraintReport const report = scene.constrain();
   auto const before = scene.sums(scene.predicted, -2), after = scene.sums(scene.half, -2);
   EXPECT_LT(norm(after.momentum - before.momentum), 1e-15);
