@@ -2,7 +2,8 @@
 #ifndef HARMOS_FILM_PLAN_HPP
 #define HARMOS_FILM_PLAN_HPP
 
-#include <Harmos_RemovalPlan.hpp>
+#include <Harmos_ContinuedLines.hpp>
+#include <Harmos_CornerCell.hpp>
 
 namespace Harmos
 {
@@ -99,9 +100,34 @@ HARMOS_LARGE_FUNCTION void placeFilms(CellComponents const &components, RemovalP
   plan.error = filmedCell(components, plan, plan.void_part).error;
 }
 
+/// Whether the lines of a sequence of cuts, continued, suit the neighbours as well as those of the given one do, or
+/// miss them by no tenth of a cell. Three bodies with straight edges, and void; lines of others end in the cell.
+HARMOS_LARGE_FUNCTION bool suitsNeighbours(ReconstructionField const &field, CellComponents const &components,
+                                           RemovalPlan const &given, RemovalPlan const &sequence)
+{
+  if (components.count != 4 || !mayHaveStraightEdges(field, components))
+    return true;
+  BodyAround const around[3] = {BodyAround(field, components, 0), BodyAround(field, components, 1),
+                                BodyAround(field, components, 2)};
+  double const misfit = continuedMisfit(components, sequence, around);
+  return misfit <= poor_continuation || misfit <= continuedMisfit(components, given, around);
+}
+
+/// The lines of a filmed plan of three bodies, its films closed.
+KOKKOS_INLINE_FUNCTION RemovalPlan withoutFilms(RemovalPlan const &film)
+{
+  RemovalPlan lines = film;
+  lines.filmed = false;
+  lines.set(1, film.component[2], film.normal[2]);
+  lines.set(2, film.component[3], -film.normal[2]);
+  lines.set(3, film.component[1], {0.0, 0.0});
+  return lines;
+}
+
 /// Three bodies, none a sliver, and void below `film_volume`: two films, along one body that is cut off first and
 /// between the other two. That body is the one along which least squares have put all void, where two films halve what
-/// the given plan misses of the bodies' first moments; or any, where they leave a third of it.
+/// the given plan misses of the bodies' first moments; or any, where they leave a third of it and the neighbours agree
+/// (suitsNeighbours: what bent edges leave of the moments may be less for a plan that takes the bar's tip away).
 ///
 /// At a T, where two bodies face each other beyond a third, least squares see the bar: its edge goes on in all
 /// neighbours, the line between the two in those beyond it alone. All void came to lie along the bar, and the next
@@ -141,7 +167,8 @@ HARMOS_LARGE_FUNCTION RemovalPlan filmPlan(ReconstructionField const &field, Cel
       plan.set(i, (first + i - 1) % open, {1.0, 0.0});
     placeFilms(components, plan);
     unfinished += plan.unfinished;
-    if (plan.error < (as_given ? much_better : with_another_first) * error && plan.error < least)
+    if (plan.error < (as_given ? much_better : with_another_first) * error && plan.error < least &&
+        (first == given.component[0] || suitsNeighbours(field, components, given, withoutFilms(plan))))
     {
       best = plan;
       least = plan.error;

@@ -274,7 +274,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan planForThinVoid(ReconstructionField const &fie
   {
     RemovalPlan const tip = partedPlan(field, components, tips, bestPlan(field, components, tips));
     if (tip.error <= least_miss * least_miss * volume * volume && tip.error < plan.error &&
-        !voidIsAcross(field, components, tip))
+        !voidIsAcross(field, components, tip) && suitsNeighbours(field, components, plan, tip))
       return tip;
   }
   return filmPlan(field, components, films, plan, error);

@@ -151,6 +151,7 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   if (in.options.order == 3 && kept.window.spread.extent(0) == 0)
     kept.window.spread = sweptSpreads(kept.chunks);
   stage.velocity = recycle(kept.velocities, "velocity", in.dof_nodes.num_dof_nodes);
+  stage.corner = recycle(kept.corners, "corner", in.mesh.num_cells);
   SweptHeat heat;
   View<double *> damage;
   if (returns_heat)
@@ -162,8 +163,9 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   if (in.carriesDamage())
     damage = stage.kinetic;
   bool const owned_alone = classes.num_interface == 0; // stage 2 reads the halo; what comes after is told it
-  sums = sweep(SweptStage(in, classes, kept.window, in.state.damage, stage.record, damage, stage.velocity, heat),
-               kept.chunks, owned_alone);
+  sums = sweep(
+      SweptStage(in, classes, kept.window, in.state.damage, stage.record, damage, stage.velocity, stage.corner, heat),
+      kept.chunks, owned_alone);
   if (returns_heat)
     addHeat(in, stage, heat);
   return stage;

@@ -49,11 +49,12 @@ def spun(radius_cells, shift=(0.0, 0.0), slower=1.0):
 
 
 def test_a_disc_in_its_socket_keeps_its_angular_momentum():
-    # 0.01, 0.002 and 0.02 are asked; with a limiter that knows the rim's inner side alone 4e-3, 9e-4 and 3.2e-3.
+    # 0.01, 0.002 and 0.02 are asked; with a limiter that knows the rim's inner side alone 4e-3, 9e-4 and 3.2e-3, with
+    # means of nodes between the remap's stages 1.9e-3, 5.3e-4 and 1.9e-3.
     kept = [spun(8), spun(8, (0.31, 0.155)), spun(8, (0.13, 0.41))]
-    check("angular momentum lost in half a revolution at radius 8 cells", 1.0 - min(kept), 2.5e-3)
+    check("angular momentum lost in half a revolution at radius 8 cells", 1.0 - min(kept), 1.7e-3)
     check("dependence on the offset, of the loss", (max(kept[:2]) - min(kept[:2])) / (1.0 - min(kept[:2])), 1.0 / 3.0)
-    check("lost at radius 16 cells", 1.0 - spun(16), 7e-4)
+    check("lost at radius 16 cells", 1.0 - spun(16), 5e-4)
     check("lost at radius 8 cells, ten times slower", 1.0 - spun(8, slower=10.0), 2e-3)
 
 

@@ -43,8 +43,9 @@ def test_an_elastic_bar_drives_a_free_rigid_block():
 
 def test_a_free_elastic_disc_goes_on_turning():
     """Nothing acts on it: its angular momentum stays. Half a turn, radius 8 cells; with a limiter that knows the rim's inner side alone
-    2.4e-3 and 6e-4 of it are lost."""
-    for order, bound in ((2, 6e-4), (3, 1e-4)):
+    2.4e-3 and 6e-4 of it are lost, with means of nodes between the remap's stages 3.7e-4 in second order; quadratic corner velocities
+    beside cells that are not full gain 4.4e-4 in third order."""
+    for order, bound in ((2, 1.5e-4), (3, 1.5e-4)):
         r = harmos(HERE / "decks/socket.yaml", {"bodies": "{disc: {material: soft, shape: disc, center: [0.0, 0.0], radius: 0.5, angular_velocity: 0.15384615384615385}}",
                                                 "numerics/remap/order": order, "output/fields/every_time": 0.0, "output/fields/at_end": "false"})
         check(f"order {order}: angular momentum that is lost", abs(r.last("angular_momentum") / r.first("angular_momentum") - 1.0), bound)

@@ -197,7 +197,7 @@ struct MoveFunctor
       value[f] = stage.record(pair, f);
     value[DensityField] = stage.record(pair, Mass) / donors.shape(donor, 0);
     value[KineticField] = stage.kineticEnergy(in, pair);
-    cornerVelocities(in.pairs, stage.velocity, pair, value + first_corner_field);
+    stage.cornerVelocities(in, classes, pair, value + first_corner_field);
     cornerVelocities(in.pairs, in.half, pair, &donors.half(donor, 0));
   }
 

@@ -51,11 +51,10 @@ struct NodalVelocityFunctor
         if (pairs.dof_node(pair, corner) != dof || in.isRigid(pairs.material(pair)))
           continue;
         double const m = share * record(pair, Mass);
-        int const old_dof =
-            interface ? -1 : in.pairs.dof_node(in.pairs.offset(cell) + pair - pairs.offset(cell), corner);
-        for (int d = 0; d < 2; ++d)
-          momentum[d] +=
-              m * (interface ? acceptors.corner_velocity(candidate(pair), 2 * corner + d) : stage.velocity(old_dof, d));
+        int const c = candidate(pair), old = in.pairs.offset(cell) + pair - pairs.offset(cell);
+        momentum += m * (interface ? Vector2{acceptors.corner_velocity(c, 2 * corner),
+                                             acceptors.corner_velocity(c, 2 * corner + 1)}
+                                   : stage.cornerVelocity(in, classes, old, corner));
         mass += m;
       }
     }

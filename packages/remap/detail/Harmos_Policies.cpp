@@ -92,9 +92,7 @@ struct FinishFunctor
       acceptors.kinetic(c) = stage.kineticEnergy(in, pair);
       for (int d = 0; d < 2; ++d)
         acceptors.centroid(c, d) = in.state.centroid(pair, d);
-      for (int k = 0; k < 4; ++k)
-        for (int d = 0; d < 2; ++d)
-          acceptors.corner_velocity(c, 2 * k + d) = stage.velocity(in.pairs.dof_node(pair, k), d);
+      stage.cornerVelocities(in, classes, pair, &acceptors.corner_velocity(c, 0));
     }
   }
 

@@ -19,6 +19,7 @@ struct QuadraticPolynomial
 {
   StageFields mean;             // of the donor: density and deviator by volume, the others by mass
   StageFields c[num_monomials]; // coefficients; c[0] keeps the mean
+  CornerShift shift;            // no offset where the corner velocities are quadratic
 };
 
 /// Place of the product of two monomials among the moments.
@@ -64,6 +65,7 @@ struct QuadraticFinder : PolynomialFinder
     p.mean = p.c[0] = mean;
     for (int i = 1; i < num_monomials; ++i)
       p.c[i] = stageFields(0.0);
+    p.shift = {{0.0, 0.0}, 0.0};
     return p;
   }
 
@@ -72,9 +74,8 @@ struct QuadraticFinder : PolynomialFinder
     return measuredBy(donors.head(donor).measure, momentsOfVertices<OverlayMoments>(v.size, v.x, v.y));
   }
 
-  /// Density and deviator by volume, the others by mass. The fit takes in that velocities belong to cells
-  /// (CornerShift): all overlays are alike.
-  KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m, bool)
+  /// Density and deviator by volume, the others by mass.
+  KOKKOS_INLINE_FUNCTION static StageFields integrate(Polynomial const &p, OverlayMoments const &m, bool largest)
   {
     double w[num_monomials];
     massMoments(p.c, m, w);
@@ -84,6 +85,8 @@ struct QuadraticFinder : PolynomialFinder
       out.record += p.c[i].record * fieldWeights(m.value[i], w[i]);
       out.corner += p.c[i].corner * FieldPack(w[i]);
     }
+    Vector2 const shifted = p.shift.moment(w[0], largest);
+    out.corner += p.c[1].corner * FieldPack(shifted[0]) + p.c[2].corner * FieldPack(shifted[1]);
     return out;
   }
 
@@ -110,8 +113,10 @@ struct QuadraticFinder : PolynomialFinder
     return s;
   }
 
-  KOKKOS_INLINE_FUNCTION void gather(QuadraticFit<StageFields> &fit, int cell, int material, StageFields const &q) const
+  /// \return Whether all neighbours are full.
+  KOKKOS_INLINE_FUNCTION bool gather(QuadraticFit<StageFields> &fit, int cell, int material, StageFields const &q) const
   {
+    bool full = true;
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
     {
       Neighbour n;
@@ -119,13 +124,15 @@ struct QuadraticFinder : PolynomialFinder
         continue;
       int const neighbour = in.mesh.cell_neighbour.item(j);
       fit.add(spreadOf(neighbour, classes.interface_index(neighbour), material, n.centroid), n.filled, n.value - q);
+      full = full && n.filled == 1.0;
     }
+    return full;
   }
 
   /// Means of the monomials over a part of a donor, by volume and by mass.
   struct MonomialMeans
   {
-    double by_volume[num_monomials], by_mass[num_monomials];
+    double by_volume[num_monomials], by_mass[num_monomials], mass;
 
     KOKKOS_INLINE_FUNCTION FieldPack ofRecord(int i) const { return fieldWeights(by_volume[i], by_mass[i]); }
     KOKKOS_INLINE_FUNCTION FieldPack ofCorner(int i) const { return FieldPack(by_mass[i]); }
@@ -137,6 +144,7 @@ struct QuadraticFinder : PolynomialFinder
     MonomialMeans out;
     double w[num_monomials];
     massMoments(c, m, w);
+    out.mass = w[0];
     for (int i = 0; i < num_monomials; ++i)
     {
       out.by_volume[i] = m.value[i] / m.volume();
@@ -178,10 +186,12 @@ struct QuadraticFinder : PolynomialFinder
                                                   StageFields (&c)[num_monomials])
   {
     Deviations record_all, record_linear, corner_all, corner_linear;
+    int const largest = overlays.largest();
     for (int o = 0; o < overlays.parts(); ++o)
     {
       MonomialMeans const part = means(p.c, overlays.fieldMoments(o));
-      FieldPack record(0.0), corner(0.0);
+      Vector2 const shifted = (1.0 / part.mass) * p.shift.moment(part.mass, o == largest);
+      FieldPack record(0.0), corner = c[1].corner * FieldPack(shifted[0]) + c[2].corner * FieldPack(shifted[1]);
       for (int i = 1; i < num_monomials; ++i)
       {
         record += c[i].record * (part.ofRecord(i) - whole.ofRecord(i));
@@ -330,30 +340,35 @@ struct QuadraticFinder : PolynomialFinder
     return true;
   }
 
-  /// Unlimited coefficients of x .. yy: of the fit, or of the linear gradient where it fails.
-  KOKKOS_INLINE_FUNCTION void coefficients(int donor, int cell, StageFields const &before, Gradient const &g,
+  /// Unlimited coefficients of x .. yy: of the fit, or of the linear gradient where it fails. Corner velocities that
+  /// lie about the cells' centres, where one of the cells is not full, are linear (CornerShift): about the centroids of
+  /// what fills them they are too steep, and what turns gains energy. \return Whether the corner velocities are
+  /// quadratic.
+  KOKKOS_INLINE_FUNCTION bool coefficients(int donor, int cell, StageFields const &before, Gradient const &g,
                                            Polynomial &p) const
   {
     if (in.options.hessian == RemapHessian::Contour)
     {
       if (contour(donor, cell, before, p))
-        return;
+        return true;
       p.c[1] = g.x;
       p.c[2] = g.y;
       for (int i = 3; i < num_monomials; ++i)
         p.c[i] = stageFields(0.0);
-      return;
+      return false;
     }
     QuadraticFit<StageFields> fit(spreadOf(donor), donors.shape(donor, 0));
-    gather(fit, cell, donors.head(donor).material, before);
-    if (!fit.solve())
-    {
-      p.c[1] = g.x;
-      p.c[2] = g.y;
-      return;
-    }
-    for (int i = 0; i < 5; ++i)
+    bool const full = gather(fit, cell, donors.head(donor).material, before) && in.pairs.cell_kind(cell) == PureCell;
+    bool const solved = fit.solve();
+    for (int i = 0; i < 5 && solved; ++i)
       p.c[1 + i] = fit.right[i];
+    if (solved && full)
+      return true;
+    p.c[1] = {solved ? fit.right[0].record : g.x.record, g.x.corner};
+    p.c[2] = {solved ? fit.right[1].record : g.y.record, g.y.corner};
+    for (int i = 3; i < num_monomials; ++i)
+      p.c[i].corner = FieldPack(0.0);
+    return false;
   }
 
   /// Of a moving donor of `cell`.
@@ -363,7 +378,7 @@ struct QuadraticFinder : PolynomialFinder
     Gradient g;
     FaceNeighbours beyond;
     StageFields const before = donorGradient(donor, cell, p.mean, g, beyond);
-    coefficients(donor, cell, before, g, p);
+    bool const quadratic = coefficients(donor, cell, before, g, p);
     if (in.options.limiter == RemapLimiter::VanLeer)
       limitVanLeer(beyond, p);
     bool const to_range = limitsToRange();
@@ -377,6 +392,10 @@ struct QuadraticFinder : PolynomialFinder
       limitToRange(overlays, p, by_volume, g, p.c);
     keepMean(p.mean, by_volume, p.c);
     MonomialMeans const by_mass = means(p.c, overlays.whole);
+    if (!quadratic)
+      p.shift = {Vector2{donors.shape(donor, 1), donors.shape(donor, 2)} +
+                     Vector2{by_mass.by_mass[1], by_mass.by_mass[2]} - cellCentre(donor),
+                 by_mass.mass};
     if (to_range)
       limitToRange(overlays, p, by_mass, g, c);
     keepMean(p.mean, by_mass, c);

@@ -79,6 +79,25 @@ struct SweptNodesFunctor
     return g;
   }
 
+  /// Velocities of the corners at a node that stage 2 goes on with: v + increment / corner mass, which for linear ones
+  /// is where the centroid of the cell has moved. Their sum, with the mixed cells' corners at v, is the node's
+  /// momentum: but the mean of all cells around would take the lag of those which stage 1 does not move into those
+  /// which it does.
+  KOKKOS_INLINE_FUNCTION void storeCorners(int first, int end, int dof) const
+  {
+    for (int j = first; j < end; ++j)
+    {
+      int const cell = stage.item[j] >> 2, corner = stage.item[j] & 3;
+      if (stage.pure_material[cell] < 0 || stage.dof_node(stage.first_pair[cell], corner) != dof)
+        continue;
+      double const *increment = stage.at(IncrementColumn + 2 * corner, cell);
+      double const four_mass = stage.fourShares(cell, corner) * *stage.at(NewMass, cell);
+      double const per_mass = four_mass > 0.0 ? 4.0 / four_mass : 0.0;
+      stage.corner1(cell, 2 * corner) = stage.half(dof, 0) + per_mass * increment[0];
+      stage.corner1(cell, 2 * corner + 1) = stage.half(dof, 1) + per_mass * increment[column_stride];
+    }
+  }
+
   /// Any node but a plain one.
   HARMOS_RARE_FUNCTION void special(int node, double &impulse_x, double &impulse_y, double &kinetic) const
   {
@@ -108,6 +127,8 @@ struct SweptNodesFunctor
         kinetic += 0.125 * g.four_mass * dot(v, v);
       if (stage.returnsHeat())
         storeHeat(node, dof, 0.25 * g.four_mass, g.gain, v);
+      if (!final)
+        storeCorners(first, end, dof);
       stage.velocity1(dof, 0) = v[0];
       stage.velocity1(dof, 1) = v[1];
     }
@@ -159,9 +180,8 @@ struct SweptNodesFunctor
       double const *increment = stage.at(IncrementColumn + 2 * (item & 3), item >> 2);
       Pack const mass = loadPack(stage.at(NewMass, item >> 2));
       if (stage.aboutAxis())
-        plain.four_mass =
-            multiplyAdd(packOf([&](int lane) { return stage.fourShares((item >> 2) + lane, item & 3); }), mass,
-                        plain.four_mass);
+        plain.four_mass = multiplyAdd(packOf([&](int lane) { return stage.fourShares((item >> 2) + lane, item & 3); }),
+                                      mass, plain.four_mass);
       else
         plain.four_mass += mass;
       plain.gain_x += loadPack(increment);
