@@ -252,9 +252,13 @@ struct RowBuilder
     bool const at_wall = face.material < 0;
     Vector2 const &n = contact.normal, corner = contact.foot + contact.gap * n;
     rows.normal[0] = at_wall ? -n : n;
-    rows.hit[0] = {at_wall ? contact.face : contact.segment,
-                   at_wall ? contact.gap : gapAboveArc(bins, face, corner, n, contact.gap),
-                   -dot(face.normal, segment(contact.segment).normal)};
+    double gap = at_wall ? contact.gap : gapAboveArc(bins, face, corner, n, contact.gap);
+    if (dt > 0.0)
+    {
+      Vector2 const closing = motionOf(face).at(contact.foot) - motionOf(segment(contact.segment)).at(corner);
+      gap = closedInStep(gap, dt * dot(closing, n), face.cell_size);
+    }
+    rows.hit[0] = {at_wall ? contact.face : contact.segment, gap, -dot(face.normal, segment(contact.segment).normal)};
   }
 
   /// The rows of segment i along `a`: the segment, or the line that it is a piece of.

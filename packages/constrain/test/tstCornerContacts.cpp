@@ -143,6 +143,25 @@ TEST(CornerContacts, cornerThatComes_isStoppedOnTheFace)
   EXPECT_NEAR(closing, 0.003, 1e-10);
 }
 
+// What comes goes by what it comes; what the reconstruction has left open below a corner that is pressed closes by a
+// tenth in a step.
+TEST(CornerContacts, smallGapBelowACorner_closesByWhatComesAndATenth)
+{
+  Frame const frame{0.3};
+  for (double const gap : {0.003, 0.02})
+    for (double const comes : {-0.001, 0.0, 0.001, 0.015})
+    {
+      TinyScene scene = cornerAboveFace(frame, 0.1, gap, pi / 4);
+      scene.dt = 1.0;
+      scene.setVelocity(
+          [&](int material, Vector2 const &) {
+            return material == 1 ? -comes * frame.normal() : Vector2{0.0, 0.0};
+          });
+      ContactRow const row = nearestRow(rowsOf(scene, scene.dt), frame.at(0.1, 0.0));
+      EXPECT_NEAR(row.gap, gap > 0.01 ? gap : std::min(gap, std::max(comes, 0.0) + 0.1 * gap), 1e-12) << comes;
+    }
+}
+
 TEST(CornerContacts, cornerPressedFlat_hasOneRowOnItsTip)
 {
   // The square is cut off where it would reach into the block, by 0.03: the tip is 0.06 long, and too short for a row.
