@@ -27,9 +27,9 @@ struct ContactRow
   int dof_a[4], dof_b[4];     // dof nodes (deformable sides)
   double weight_a[4], weight_b[4];
   Vector2 point, normal; // of the slave's point
-  double gap;            // along n, >= 0; below between overlapping outlines of rigid bodies [length]
-  double bend;           // part of its change over the step that is of second order in v* (Harmos_OutlineRows.hpp)
-  double length;         // of the slave segment [length]
+  double gap;    // that a step may close along n, >= 0; below between overlapping outlines of rigid bodies [length]
+  double bend;   // part of its change over the step that is of second order in v* (Harmos_OutlineRows.hpp)
+  double length; // of the slave segment [length]
   int tied;
   double friction;    // coefficient
   double restitution; // of the closing speed

@@ -253,7 +253,9 @@ struct RowBuilder
     Vector2 const &n = contact.normal, corner = contact.foot + contact.gap * n;
     rows.normal[0] = at_wall ? -n : n;
     double gap = at_wall ? contact.gap : gapAboveArc(bins, face, corner, n, contact.gap);
-    if (dt > 0.0)
+    double const restitution = at_wall ? boundary(mesh.face_boundary(face.cell, face.face)).restitution
+                                       : options.interaction(a.material, segment(contact.segment).material).restitution;
+    if (dt > 0.0 && !(restitution > 0.0))
     {
       Vector2 const closing = motionOf(face).at(contact.foot) - motionOf(segment(contact.segment)).at(corner);
       gap = closedInStep(gap, dt * dot(closing, n), face.cell_size);

@@ -49,8 +49,9 @@ KOKKOS_INLINE_FUNCTION SideMotion sideMotion(Mesh const &mesh, CellMaterialPairs
   return motion;
 }
 
-/// What a step may close of the gap below a corner: of less than 0.01 cells the way w dt that the sides come by
-/// themselves, and a tenth of the gap, min(g, max(w dt, 0) + g / 10).
+/// What a step may close of the gap g below a corner: the way w dt that the sides come by themselves, and a part of g,
+///
+///   min(g, max(w dt, 0) + a g),  a = 1/10 below 0.005 cells, 1 from 0.01 cells on, linear between.
 ///
 /// A corner that is pressed, drawn anew by moments, comes to lie up to 0.005 cells above its face. Free to close all of
 /// that at once, it is driven there by all of its stress, at g / dt, and stopped in the next step: a twentieth of a
@@ -58,8 +59,9 @@ KOKKOS_INLINE_FUNCTION SideMotion sideMotion(Mesh const &mesh, CellMaterialPairs
 /// \param way w dt [m].
 KOKKOS_INLINE_FUNCTION double closedInStep(double gap, double way, double cell_size)
 {
-  constexpr double small = 0.01, part = 0.1;
-  return gap < small * cell_size ? Math::min(gap, Math::max(way, 0.0) + part * gap) : gap;
+  constexpr double small = 0.005, least = 0.1;
+  double const part = Math::clamp(least + (1.0 - least) * (gap / (small * cell_size) - 1.0), least, 1.0);
+  return Math::min(gap, Math::max(way, 0.0) + part * gap);
 }
 
 } // namespace Harmos

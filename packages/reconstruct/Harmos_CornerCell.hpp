@@ -47,6 +47,23 @@ KOKKOS_INLINE_FUNCTION bool mayHaveStraightEdges(ReconstructionField const &fiel
   return true;
 }
 
+/// Whether a cell around one holds a material that is none of its own.
+KOKKOS_INLINE_FUNCTION bool othersAround(ReconstructionField const &field, CellComponents const &components)
+{
+  Rows const &around = field.mesh.cell_neighbour;
+  for (int e = around.offset(components.cell); e < around.offset(components.cell + 1); ++e)
+    for (int pair = field.pairs.offset(around.item(e)); pair < field.pairs.offset(around.item(e) + 1); ++pair)
+    {
+      int const material = field.pairs.material(pair);
+      bool own = false;
+      for (int k = 0; k < components.count; ++k)
+        own = own || components.material[k] == material;
+      if (!own)
+        return true;
+    }
+  return false;
+}
+
 /// The corner of a body in the polygon that it shares with void, where two lines are exact and one is not: an error of
 /// at most 1e-6 of that of the straight line. Elsewhere, as at curved surfaces, the error of what is returned is above.
 ///
@@ -61,17 +78,16 @@ KOKKOS_INLINE_FUNCTION bool mayHaveStraightEdges(ReconstructionField const &fiel
 ///                    boundary a tenth.
 /// \param thorough Of a body drawn alone, whose matter has not flowed: look also where the neighbours hardly miss the
 ///                 straight line, search to the end, and take tips at 1e-4 of the straight line's error.
-/// \param bends Whether what presses the corner may bend its edges: an error of 1e-3 will do then.
 HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
                                                  int body, Region const &polygon, Plane2 const *rim,
                                                  Vector2 const &normal, bool thorough, double poor_misfit = 1e-2,
-                                                 bool bends = false)
+                                                 CornerEdges edges = CornerEdges::Straight)
 {
   double const hopeful = thorough ? 1e300 : 1e-3;
   constexpr double misfit_weight = 0.1, least_miss = 1e-9, near_exact = 1e-6, near_tip = 1e-4, near_bent = 1e-3;
   constexpr double quarter = 0.7853981633974483; // of pi
   constexpr int starts = 7, most_searches = 3;
-  constexpr double centroid_first = 1e-3;
+  constexpr double centroid_first = 1e-3, shortest_bent = 0.1;
   constexpr double at_boundary = 0.1; // where cells are missing that would tell a tip before the boundary
   double const volume = components.volume[body], open = components.volume[components.count - 1];
   double const smaller = Math::min(volume, open);
@@ -86,7 +102,7 @@ HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fiel
     return {};
   CornerCell one_line;
   problem.measure(straight.inside, &straight.line, 1, one_line);
-  double const near = bends ? near_bent : thorough && volume < film_volume ? near_tip : near_exact;
+  double const near = edges == CornerEdges::Bent ? near_bent : thorough && volume < film_volume ? near_tip : near_exact;
   double const exact = near * one_line.error;
   double const angle = Math::atan2(normal[1], normal[0]);
   // Where the first line goes through the body's middle, what it leaves void.
@@ -114,7 +130,7 @@ HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fiel
   bool const flowed = !thorough && hasFlowed(field, components, body);
   if ((flowed || fragment) && !(cell.error <= exact))
     return {};
-  CornerCell start[starts];
+  CornerCell start[starts], nearest;
   for (int i = 0; i < starts && !(cell.error <= exact); ++i)
     start[i] = problem.at(x[i]);
   for (int tries = 0; tries < most_searches && !(cell.error <= exact); ++tries)
@@ -124,8 +140,14 @@ HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fiel
       best = start[i].error < start[best].error ? i : best;
     cell = bestCornerCell(problem, start[best], hopeful * one_line.error);
     start[best].error = 1e300;
+    nearest = cell.error < nearest.error ? cell : nearest;
   }
-  if (!(cell.error <= exact))
+  if (!(cell.error <= exact) && edges == CornerEdges::BentElsewhere && nearest.error <= near_bent * one_line.error &&
+      nearest.shorterEdge() >= shortest_bent && !components.isExact(1u << body) &&
+      !isAtBoundary(field, components.cell) && mayHaveStraightEdges(field, components) &&
+      othersAround(field, components))
+    cell = nearest;
+  else if (!(cell.error <= exact))
   {
     cell.error = 1e300;
     return cell;
@@ -138,22 +160,16 @@ HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fiel
   return cell;
 }
 
-/// Lengths of the chords along which the two lines of a corner cut void off its polygon. [cells]
-HARMOS_LARGE_FUNCTION Vector2 chordLengths(CellComponents const &components, Region const &polygon,
-                                           CornerCell const &cell, double volume, double void_volume)
+/// Whether both lines of a corner cut tips off their polygon, none of half a cell's length. Void below film_volume that
+/// lies all along a face of the cell is what a bent edge leaves, and no corner.
+KOKKOS_INLINE_FUNCTION bool cutsTips(CellComponents const &components, Region const &polygon, CornerCell const &cell,
+                                     double volume, double void_volume)
 {
+  constexpr double longest = 0.5; // of the cell's side
   double const rest = void_volume - cell.open;
   PartBehind const one = partBehind(polygon, cell.line[0].normal, volume + rest, cell.open, components.weight);
   PartBehind const two = partBehind(one.inside, cell.line[1].normal, volume, rest, components.weight);
-  return {norm(one.chord_end - one.chord_begin), norm(two.chord_end - two.chord_begin)};
-}
-
-/// Whether both lines of a corner cut tips off their polygon, none of half a cell's length. Void below film_volume that
-/// lies all along a face of the cell is what a bent edge leaves, and no corner.
-KOKKOS_INLINE_FUNCTION bool cutsTips(Vector2 const &chords)
-{
-  constexpr double longest = 0.5;
-  return chords[0] < longest && chords[1] < longest;
+  return norm(one.chord_end - one.chord_begin) < longest && norm(two.chord_end - two.chord_begin) < longest;
 }
 
 /// What lies around a convex corner: all of a polygon but what two divisions, the second of the first one's inside,
@@ -228,23 +244,6 @@ HARMOS_LARGE_FUNCTION CellComponents bodyAndRest(CellComponents const &component
   return ordered;
 }
 
-/// Whether a cell around one holds a material that is none of its own.
-KOKKOS_INLINE_FUNCTION bool othersAround(ReconstructionField const &field, CellComponents const &components)
-{
-  Rows const &around = field.mesh.cell_neighbour;
-  for (int e = around.offset(components.cell); e < around.offset(components.cell + 1); ++e)
-    for (int pair = field.pairs.offset(around.item(e)); pair < field.pairs.offset(around.item(e) + 1); ++pair)
-    {
-      int const material = field.pairs.material(pair);
-      bool own = false;
-      for (int k = 0; k < components.count; ++k)
-        own = own || components.material[k] == material;
-      if (!own)
-        return true;
-    }
-  return false;
-}
-
 /// Two bodies that fill a cell (but for a film of void), none a sliver, neither has flowed, and a straight line does
 /// not leave them as they are: where one ends in a convex corner inside of the other, two lines leave both as they are.
 /// Where a third is near by most searches would find no corner.
@@ -290,13 +289,13 @@ HARMOS_LARGE_FUNCTION RemovalPlan embeddedCornerPlan(ReconstructionField const &
 /// all as they are. Two bodies without void: embeddedCornerPlan. What presses the tip in the next cell bends the edges
 /// of a body that is alone in its cell: where another one is around, two lines of a tenth of a cell at least that leave
 /// a thousandth will do. (One line in the place of two broke the outline, and nothing felt the corner for 20 cycles.)
-/// \param bends Of exactCornerCell.
+/// \param bends Whether what presses the corner may bend its edges (CornerEdges::Bent).
 HARMOS_LARGE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, CellComponents const &components,
                                              SliverBounds const &slivers, RemovalPlan const &given, bool bends = false)
 {
   // Squared misses of the body that a straight line cuts off; the second, where edges bend, of what the plan misses.
   constexpr double exact_miss = 1e-20, near_exact = 1e-6;
-  constexpr double poor_misfit = 1e-2, shortest_bent = 0.1;
+  constexpr double poor_misfit = 1e-2;
   int const bodies = components.count - 1;
   bool const filled = components.material[bodies] != void_material;
   if (given.error > removal_tie && components.material[1] != void_material &&
@@ -343,23 +342,15 @@ HARMOS_LARGE_FUNCTION RemovalPlan cornerPlan(ReconstructionField const &field, C
       line = division.line;
       normal = same ? lastCut(1) : cut(1u << body, 1u << bodies);
     }
-    Plane2 const *const rim = bodies == 2 ? &line : nullptr;
-    CornerCell cell = exactCornerCell(field, components, body, polygon, rim, normal, false, poor_misfit, bends);
-    bool pressed = false;
-    if (cell.error == 1e300 && bodies == 1 && !thin && mayHaveStraightEdges(field, components) &&
-        othersAround(field, components))
-    {
-      pressed = true;
-      cell = exactCornerCell(field, components, body, polygon, rim, normal, false, poor_misfit, true);
-    }
+    CornerEdges const edges = bends                  ? CornerEdges::Bent
+                              : bodies == 1 && !thin ? CornerEdges::BentElsewhere
+                                                     : CornerEdges::Straight;
+    CornerCell const cell = exactCornerCell(field, components, body, polygon, bodies == 2 ? &line : nullptr, normal,
+                                            false, poor_misfit, edges);
     if (cell.error == 1e300)
       continue;
-    if (thin || pressed)
-    {
-      Vector2 const chords = chordLengths(components, polygon, cell, components.volume[0], components.volume[1]);
-      if (thin ? !cutsTips(chords) : Math::min(chords[0], chords[1]) < shortest_bent)
-        continue;
-    }
+    if (thin && !cutsTips(components, polygon, cell, components.volume[0], components.volume[1]))
+      continue;
     plan.set(bodies - 1, body, cell.line[0].normal);
     plan.set(bodies, bodies, cell.line[1].normal);
     plan.void_part = cell.open;

@@ -18,6 +18,36 @@ struct CornerCell
   Vector2 chord_begin[2], chord_end[2]; // where the first line crosses the polygon, and the second what that leaves
   double residual[most_residuals];
   double error = 1e300; // sum of their squares
+
+  /// Of the first line, what bounds the region.
+  KOKKOS_INLINE_FUNCTION void firstEdge(Vector2 &begin, Vector2 &end) const
+  {
+    begin = chord_begin[0];
+    end = chord_end[0];
+    double const from = line[1].distance(begin), to = line[1].distance(end);
+    Vector2 const crossing = begin + (from == to ? 0.0 : from / (from - to)) * (end - begin);
+    if (from > 0.0)
+      begin = to > 0.0 ? end : crossing;
+    else if (to > 0.0)
+      end = crossing;
+  }
+
+  /// The shorter one's length, of both edges of the region. [cells]
+  KOKKOS_INLINE_FUNCTION double shorterEdge() const
+  {
+    Vector2 begin, end;
+    firstEdge(begin, end);
+    return Math::min(norm(end - begin), norm(chord_end[1] - chord_begin[1]));
+  }
+};
+
+/// What of a corner's edges is asked for.
+enum class CornerEdges
+{
+  Straight,     // an error of 1e-6 of the straight line's at most
+  Bent,         // what presses the corner may bend them: 1e-3
+  BentElsewhere // straight, or, of a solid that is not rigid and alone here, another body in a cell around, within the
+                // mesh, bent and none shorter than a tenth of a cell
 };
 
 /// Which corner suits the body's centroid c and the neighbours best: least
@@ -106,15 +136,8 @@ struct CornerProblem
   {
     constexpr int n = CornerCell::unknowns;
     Vector2 const along[2] = {perpendicular(cell.line[0].normal), perpendicular(cell.line[1].normal)};
-    // Of the first line, what bounds the region.
-    Vector2 edge_begin = cell.chord_begin[0], edge_end = cell.chord_end[0];
-    double const from = cell.line[1].distance(edge_begin), to = cell.line[1].distance(edge_end);
-    Vector2 const crossing = edge_begin + (from == to ? 0.0 : from / (from - to)) * (edge_end - edge_begin);
-    if (from > 0.0)
-      edge_begin = to > 0.0 ? edge_end : crossing;
-    else if (to > 0.0)
-      edge_end = crossing;
-
+    Vector2 edge_begin, edge_end;
+    cell.firstEdge(edge_begin, edge_end);
     double growth[2][n] = {}; // of the offsets
     LinePart const first(*this, cell.chord_begin[0], cell.chord_end[0]), edge(*this, edge_begin, edge_end),
         second(*this, cell.chord_begin[1], cell.chord_end[1]);

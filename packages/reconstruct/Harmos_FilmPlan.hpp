@@ -126,8 +126,9 @@ KOKKOS_INLINE_FUNCTION RemovalPlan withoutFilms(RemovalPlan const &film)
 
 /// Three bodies, none a sliver, and void below `film_volume`: two films, along one body that is cut off first and
 /// between the other two. That body is the one along which least squares have put all void, where two films halve what
-/// the given plan misses of the bodies' first moments; or any, where they leave a third of it and the neighbours agree
-/// (suitsNeighbours: what bent edges leave of the moments may be less for a plan that takes the bar's tip away).
+/// the given plan misses of the bodies' first moments; or any, where they leave a third of it and, if the given plan
+/// cuts off another first, the neighbours agree (suitsNeighbours: what bent edges leave of the moments may be less for
+/// a plan that takes the bar's tip away).
 ///
 /// At a T, where two bodies face each other beyond a third, least squares see the bar: its edge goes on in all
 /// neighbours, the line between the two in those beyond it alone. All void came to lie along the bar, and the next

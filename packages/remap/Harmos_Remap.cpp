@@ -113,15 +113,19 @@ Classes const &keepClasses(Input const &in, Kept &kept)
 }
 
 /// Kinetic energy per mass of the pairs: of their corners, and their part of what the nodes lost in stage 1.
-void addHeat(Input const &in, StageState const &stage, SweptHeat const &heat)
+void addHeat(Input const &in, Classes const &classes, StageState const &stage, SweptHeat const &heat)
 {
   bool const swept = heat.node.extent(0) > 0;
   Kokkos::parallel_for(
       "Harmos::remap::addHeat", RangePolicy(0, in.pairs.num_pairs), KOKKOS_LAMBDA(int pair) {
-        double lost = 0.0;
-        for (int k = 0; k < 4 && swept; ++k)
-          lost += in.share(in.pairs.cell(pair), k) * heat.node(in.pairs.dof_node(pair, k));
-        stage.kinetic(pair) = cornerKineticEnergy(in.share, in.pairs, stage.velocity, pair) + lost;
+        double sum = 0.0;
+        for (int k = 0; k < 4; ++k)
+        {
+          Vector2 const v = stage.cornerVelocity(in, classes, pair, k);
+          double const lost = swept ? heat.node(in.pairs.dof_node(pair, k)) : 0.0;
+          sum += in.share(in.pairs.cell(pair), k) * (0.5 * dot(v, v) + lost);
+        }
+        stage.kinetic(pair) = sum;
       });
 }
 
@@ -140,7 +144,7 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
     if (in.carriesDamage())
       Kokkos::deep_copy(stage.kinetic, in.state.damage);
     else if (returns_heat)
-      addHeat(in, stage, {});
+      addHeat(in, classes, stage, {});
     return stage;
   }
   if (kept.window.columns.extent(0) == 0)
@@ -152,6 +156,7 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
     kept.window.spread = sweptSpreads(kept.chunks);
   stage.velocity = recycle(kept.velocities, "velocity", in.dof_nodes.num_dof_nodes);
   stage.corner = recycle(kept.corners, "corner", in.mesh.num_cells);
+  stage.own_part = recycle(kept.own_parts, "ownPart", in.dof_nodes.num_dof_nodes);
   SweptHeat heat;
   View<double *> damage;
   if (returns_heat)
@@ -163,11 +168,11 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   if (in.carriesDamage())
     damage = stage.kinetic;
   bool const owned_alone = classes.num_interface == 0; // stage 2 reads the halo; what comes after is told it
-  sums = sweep(
-      SweptStage(in, classes, kept.window, in.state.damage, stage.record, damage, stage.velocity, stage.corner, heat),
-      kept.chunks, owned_alone);
+  sums = sweep(SweptStage(in, classes, kept.window, in.state.damage, stage.record, damage, stage.velocity, stage.corner,
+                          stage.own_part, heat),
+               kept.chunks, owned_alone);
   if (returns_heat)
-    addHeat(in, stage, heat);
+    addHeat(in, classes, stage, heat);
   return stage;
 }
 

@@ -16,7 +16,8 @@ struct StageState
   View<double *[num_pair_fields]> record; // num_pairs
   View<double *> kinetic;                 // num_pairs: KineticField; extent 0: not carried through stage 1
   View<double *[2]> velocity;             // num_dof_nodes
-  View<double *[8]> corner; // num_cells; velocities as the pure cells have them; set where a cell around is of stage 2
+  View<double *[8]> corner;               // num_cells; extent 0: no stage 1. Velocities as the pure cells have them
+  View<double *[2]> own_part;             // num_dof_nodes: part of v^{n+1/2} less the node's that mixed cells have
 
   KOKKOS_INLINE_FUNCTION double kineticEnergy(Input const &in, int pair) const
   {
@@ -24,14 +25,17 @@ struct StageState
   }
 
   /// Velocity at corner k of a pair after stage 1. At a node that stage 1 touches and stage 2 finishes each cell around
-  /// has its own (SweptNodes); where it is mixed, nothing has flown.
+  /// has its own, which `corner` and `own_part` are set for (SweptNodes).
   KOKKOS_INLINE_FUNCTION Vector2 cornerVelocity(Input const &in, Classes const &classes, int pair, int k) const
   {
     int const cell = in.pairs.cell(pair), node = in.mesh.cell_node(cell, k), dof = in.pairs.dof_node(pair, k);
-    bool const own = corner.extent(0) > 0 && classes.node_final(node) == 0 && classes.node_sweep(node) == SpecialNode;
-    if (own && classes.pure_material(cell) >= 0)
+    Vector2 const mean{velocity(dof, 0), velocity(dof, 1)};
+    if (corner.extent(0) == 0 || classes.node_final(node) != 0 || classes.node_sweep(node) != SpecialNode)
+      return mean;
+    if (classes.pure_material(cell) >= 0)
       return {corner(cell, 2 * k), corner(cell, 2 * k + 1)};
-    return own ? Vector2{in.half(dof, 0), in.half(dof, 1)} : Vector2{velocity(dof, 0), velocity(dof, 1)};
+    return {mean[0] + own_part(dof, 0) * (in.half(dof, 0) - mean[0]),
+            mean[1] + own_part(dof, 1) * (in.half(dof, 1) - mean[1])};
   }
 
   KOKKOS_INLINE_FUNCTION void cornerVelocities(Input const &in, Classes const &classes, int pair, double *out) const

@@ -40,6 +40,7 @@ struct Kept
   std::vector<View<double *[num_pair_fields]>> records;
   std::vector<View<double *[2]>> velocities;
   std::vector<View<double *[8]>> corners;
+  std::vector<View<double *[2]>> own_parts;
 };
 
 /// An array that nobody but the pool holds, or a new one. Contents are arbitrary.

@@ -231,6 +231,7 @@ struct QuadraticFinder : PolynomialFinder
   struct Ring
   {
     int size = 0;
+    bool full = true; // all neighbours are
     int cell[most_ring];
     Vector2 offset[most_ring];         // of the centroids
     StageFields difference[most_ring]; // from the donor
@@ -251,6 +252,7 @@ struct QuadraticFinder : PolynomialFinder
       ring.cell[ring.size] = neighbour;
       ring.offset[ring.size] = n.centroid - centroid;
       ring.difference[ring.size++] = n.value - q;
+      ring.full = ring.full && n.filled == 1.0;
     }
     ring.cell[ring.size] = cell;
     ring.offset[ring.size] = {0.0, 0.0};
@@ -302,11 +304,13 @@ struct QuadraticFinder : PolynomialFinder
 
   /// G_e = (1/A_e) sum of A_n G_n over the quarters of the moved cell, H_e = (1/A_e) contour integral of G_n dS
   /// (Dukowicz & Kodis 1987). False where a node has less than three same-material cells around.
-  KOKKOS_INLINE_FUNCTION bool contour(int donor, int cell, StageFields const &before, Polynomial &p) const
+  /// \param[out] full Whether all neighbours are.
+  KOKKOS_INLINE_FUNCTION bool contour(int donor, int cell, StageFields const &before, Polynomial &p, bool &full) const
   {
     Vector2 const centroid{donors.shape(donor, 1), donors.shape(donor, 2)};
     Ring ring;
     gatherRing(cell, donors.head(donor).material, centroid, before, ring);
+    full = ring.full;
     Vector2 x[4], centre{0.0, 0.0};
     StageFields g[4][2];
     for (int k = 0; k < 4; ++k)
@@ -347,27 +351,28 @@ struct QuadraticFinder : PolynomialFinder
   KOKKOS_INLINE_FUNCTION bool coefficients(int donor, int cell, StageFields const &before, Gradient const &g,
                                            Polynomial &p) const
   {
+    bool full = true, solved = false;
     if (in.options.hessian == RemapHessian::Contour)
+      solved = contour(donor, cell, before, p, full);
+    else
     {
-      if (contour(donor, cell, before, p))
-        return true;
-      p.c[1] = g.x;
-      p.c[2] = g.y;
-      for (int i = 3; i < num_monomials; ++i)
-        p.c[i] = stageFields(0.0);
-      return false;
+      QuadraticFit<StageFields> fit(spreadOf(donor), donors.shape(donor, 0));
+      full = gather(fit, cell, donors.head(donor).material, before);
+      solved = fit.solve();
+      for (int i = 0; i < 5 && solved; ++i)
+        p.c[1 + i] = fit.right[i];
     }
-    QuadraticFit<StageFields> fit(spreadOf(donor), donors.shape(donor, 0));
-    bool const full = gather(fit, cell, donors.head(donor).material, before) && in.pairs.cell_kind(cell) == PureCell;
-    bool const solved = fit.solve();
-    for (int i = 0; i < 5 && solved; ++i)
-      p.c[1 + i] = fit.right[i];
+    full = full && in.pairs.cell_kind(cell) == PureCell;
     if (solved && full)
       return true;
-    p.c[1] = {solved ? fit.right[0].record : g.x.record, g.x.corner};
-    p.c[2] = {solved ? fit.right[1].record : g.y.record, g.y.corner};
+    p.c[1] = {solved ? p.c[1].record : g.x.record, g.x.corner};
+    p.c[2] = {solved ? p.c[2].record : g.y.record, g.y.corner};
     for (int i = 3; i < num_monomials; ++i)
+    {
       p.c[i].corner = FieldPack(0.0);
+      if (!solved)
+        p.c[i].record = FieldPack(0.0);
+    }
     return false;
   }
 

@@ -79,23 +79,84 @@ struct SweptNodesFunctor
     return g;
   }
 
-  /// Velocities of the corners at a node that stage 2 goes on with: v + increment / corner mass, which for linear ones
-  /// is where the centroid of the cell has moved. Their sum, with the mixed cells' corners at v, is the node's
-  /// momentum: but the mean of all cells around would take the lag of those which stage 1 does not move into those
-  /// which it does.
-  KOKKOS_INLINE_FUNCTION void storeCorners(int first, int end, int dof) const
+  /// A corner at a node, of a pair: four times its mass, and its velocity, the node's before and what it has gained.
+  struct Corner
   {
-    for (int j = first; j < end; ++j)
+    int cell, corner, pair;
+    double four_mass;
+    Vector2 own;
+  };
+
+  /// visit(corner) for all corners of deformable pairs at a dof node. In mixed cells nothing has flown.
+  template <class Visitor>
+  KOKKOS_INLINE_FUNCTION void forCorners(int node, int dof, Visitor const &visit) const
+  {
+    Vector2 const half{stage.half(dof, 0), stage.half(dof, 1)};
+    for (int j = stage.first_item[node]; j < stage.first_item[node + 1]; ++j)
     {
-      int const cell = stage.item[j] >> 2, corner = stage.item[j] & 3;
-      if (stage.pure_material[cell] < 0 || stage.dof_node(stage.first_pair[cell], corner) != dof)
-        continue;
-      double const *increment = stage.at(IncrementColumn + 2 * corner, cell);
-      double const four_mass = stage.fourShares(cell, corner) * *stage.at(NewMass, cell);
-      double const per_mass = four_mass > 0.0 ? 4.0 / four_mass : 0.0;
-      stage.corner1(cell, 2 * corner) = stage.half(dof, 0) + per_mass * increment[0];
-      stage.corner1(cell, 2 * corner + 1) = stage.half(dof, 1) + per_mass * increment[column_stride];
+      int const cell = stage.item[j] >> 2, corner = stage.item[j] & 3, pure = stage.pure_material[cell];
+      for (int pair = stage.first_pair[cell]; pure != -2 && pair < stage.first_pair[cell + 1]; ++pair)
+      {
+        if (stage.dof_node(pair, corner) != dof || (pure < 0 && stage.isRigid(stage.pair_material[pair])))
+          continue;
+        Corner c{cell, corner, pair, stage.fourShares(cell, corner) * stage.record1(pair, Mass), half};
+        if (pure >= 0 && c.four_mass > 0.0)
+        {
+          double const *increment = stage.at(IncrementColumn + 2 * corner, cell);
+          c.own += (4.0 / c.four_mass) * Vector2{increment[0], increment[column_stride]};
+        }
+        visit(c);
+      }
     }
+  }
+
+  /// Velocities of the corners at a node that stage 2 goes on with: v + increment / corner mass, which for linear ones
+  /// is where the centroid of the cell has moved, to first order. With the mixed cells' corners at v, their sum is the
+  /// node's momentum: but the mean of all cells around would take the lag of those which stage 1 does not move into
+  /// those which it does. A component's differences from the mean are kept by one part, so far that all stay in the
+  /// range of the velocities of the cells around. \param mean After.
+  HARMOS_RARE_FUNCTION void storeCorners(int node, int dof, Vector2 const &mean) const
+  {
+    Vector2 least = mean, most = mean;
+    forCorners(node, dof,
+               [&](Corner const &c)
+               {
+                 for (int k = 0; k < 4; ++k)
+                   for (int d = 0; d < 2; ++d)
+                   {
+                     double const v = stage.half(stage.dof_node(c.pair, k), d);
+                     least[d] = Math::min(least[d], v);
+                     most[d] = Math::max(most[d], v);
+                   }
+               });
+    Vector2 part{1.0, 1.0}, square{0.0, 0.0};
+    double four_mass = 0.0;
+    forCorners(node, dof,
+               [&](Corner const &c)
+               {
+                 four_mass += c.four_mass;
+                 for (int d = 0; d < 2; ++d)
+                 {
+                   double const apart = c.own[d] - mean[d], size = Math::fabs(apart);
+                   double const room = apart > 0.0 ? most[d] - mean[d] : mean[d] - least[d];
+                   part[d] = size > room ? Math::min(part[d], room / size) : part[d];
+                   square[d] += c.four_mass * apart * apart;
+                 }
+               });
+    forCorners(node, dof,
+               [&](Corner const &c)
+               {
+                 for (int d = 0; d < 2 && stage.pure_material[c.cell] >= 0; ++d)
+                   stage.corner1(c.cell, 2 * c.corner + d) = mean[d] + part[d] * (c.own[d] - mean[d]);
+               });
+    double motion = 0.0; // of the corners about their mean: it is no heat
+    for (int d = 0; d < 2; ++d)
+    {
+      stage.own_part(dof, d) = part[d];
+      motion += 0.5 * part[d] * part[d] * square[d];
+    }
+    if (stage.returnsHeat() && four_mass > 0.0)
+      stage.node_heat[dof] -= motion / four_mass;
   }
 
   /// Any node but a plain one.
@@ -128,7 +189,7 @@ struct SweptNodesFunctor
       if (stage.returnsHeat())
         storeHeat(node, dof, 0.25 * g.four_mass, g.gain, v);
       if (!final)
-        storeCorners(first, end, dof);
+        storeCorners(node, dof, v);
       stage.velocity1(dof, 0) = v[0];
       stage.velocity1(dof, 1) = v[1];
     }

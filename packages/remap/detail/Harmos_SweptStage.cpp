@@ -117,7 +117,8 @@ View<double *[4]> sweptSpreads(SweptChunks const &chunks)
 SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow const &window,
                        View<double *> const &damage_before, View<double *[num_pair_fields]> const &record_after,
                        View<double *> const &damage_after, View<double *[2]> const &velocity_after,
-                       View<double *[8]> const &corner_after, SweptHeat const &heat)
+                       View<double *[8]> const &corner_after, View<double *[2]> const &part_after,
+                       SweptHeat const &heat)
     : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), third_order(in.options.order > 2),
       limiter(in.options.limiter), ranges(in.ranges.data()), cell_node(in.mesh.cell_node),
       face_neighbour(in.mesh.face_neighbour), position(in.start), target(in.mesh.node_position),
@@ -131,7 +132,8 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
       node_return(classes.node_return.data()), node_final(classes.node_final.data()),
       node_sweep(classes.node_sweep.data()), mask(window.mask), columns(window.columns.data()),
       block(window.block.data()), spread(window.spread), record1(record_after), velocity1(velocity_after),
-      corner1(corner_after), damage1(damage_after.data()), corner_heat(heat.corner), node_heat(heat.node.data())
+      corner1(corner_after), own_part(part_after), damage1(damage_after.data()), corner_heat(heat.corner),
+      node_heat(heat.node.data())
 {
 }
 

@@ -110,9 +110,9 @@ HARMOS_RARE_FUNCTION inline void joinColumns(double const *begin, double const *
 
 /// Kinetic energy that stage 1 loses, where it is asked for; else empty.
 ///
-/// A node of mass m and velocity v gains the masses G_i with velocities v_i (upwind, at the faces between nodes; G_i <
-/// 0: it gives them away), sum G_i = m' - m, and then has m' v' = m v + sum G_i v_i. With the kinetic energy G_i v_i^2
-/// / 2 of each going from node to node, what is missing at the node is
+/// A node of mass m and velocity v gains the masses G_i with velocities v_i (upwind, at the faces between nodes; those
+/// below zero it gives away), sum G_i = m' - m, and then has m' v' = m v + sum G_i v_i. With the kinetic energy
+/// G_i v_i^2 / 2 of each going from node to node, what is missing at the node is
 ///   m v^2 / 2 + sum G_i v_i^2 / 2 - m' v'^2 / 2 = sum G_i (v_i - v)^2 / 2 - m' (v' - v)^2 / 2:
 /// all nodes together lose just what the kinetic energy falls by, and each what is the same in all frames of reference.
 /// (A kinetic energy of the cells, remapped as a field of its own, differs by errors of first order in the velocity's:
@@ -128,7 +128,8 @@ struct SweptStage
 {
   SweptStage(Input const &in, Classes const &classes, SweptWindow const &window, View<double *> const &damage_before,
              View<double *[num_pair_fields]> const &record_after, View<double *> const &damage_after,
-             View<double *[2]> const &velocity_after, View<double *[8]> const &corner_after, SweptHeat const &heat);
+             View<double *[2]> const &velocity_after, View<double *[8]> const &corner_after,
+             View<double *[2]> const &part_after, SweptHeat const &heat);
 
   Geometry geometry;
   double dt;
@@ -164,7 +165,8 @@ struct SweptStage
 
   RowPointer<double, num_pair_fields> record1; // after; a copy where nothing flows
   RowPointer<double, 2> velocity1;
-  RowPointer<double, 8> corner1; // StageState::corner
+  RowPointer<double, 8> corner1;  // StageState::corner
+  RowPointer<double, 2> own_part; // StageState::own_part
   double *damage1;
   RowPointer<double, 4> corner_heat; // of SweptHeat
   double *node_heat;                 // null: not asked for
@@ -254,14 +256,14 @@ void sweptQuadraticFluxes(SweptStage const &stage, int begin, int end);
 double sweptGather(SweptStage const &stage, int begin, int end);
 
 /// Velocities after stage 1: v + sum of increments / new nodal mass, summed over the cells around. Node conditions are
-/// imposed where the node is final (no interface cell around) and has moved.
+/// imposed where the node is final (no interface cell around) and has moved. Where it is not final, the velocities of
+/// the corners around it too.
 void sweptNodes(SweptStage const &stage, int begin, int end, SweptSums &sums);
 
 /// All of stage 1.
 ///
-/// \param owned_alone Only what the velocities of owned cells' nodes depend on: records of one layer around those
-/// cells,
-///                    fluxes of two, moved cells of three. Elsewhere records and velocities are not set.
+/// \param owned_alone Only what the velocities of owned cells' nodes depend on: records of one layer around these
+///                    cells, fluxes of two, moved cells of three. Elsewhere records and velocities are not set.
 SweptSums sweep(SweptStage const &stage, SweptChunks const &chunks, bool owned_alone);
 
 } // namespace RemapDetail

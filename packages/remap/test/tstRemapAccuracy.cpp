@@ -319,6 +319,35 @@ TEST(Accuracy, solidDiscInSolidRotation_losesLittleWhereTheStagesMeet)
   EXPECT_NEAR(fast, 0.0, 2e-4);
 }
 
+// Corners have their own velocities between the stages, which one step of a jump along the diagonal could take out of
+// its range (by 2e-3 of the speed).
+TEST(Bounds, jumpsInFastDiagonalMotion_stayWithinTheirRange)
+{
+  std::vector<Material> laws = twoLaws();
+  laws[0].strength = StrengthKind::Elastic;
+  double worst = 0.0;
+  for (int order : {1, 2, 3})
+    for (unsigned seed = 1; seed < 9; ++seed)
+    {
+      Scene scene(16, 16, 0.0, laws);
+      scene.options.order = order;
+      scene.paint(
+          {disc(0, {0.47, 0.48}, 0.3)}, [](int, Vector2 const &) { return 1.0; },
+          [](int, Vector2 const &) { return 1.0; });
+      unsigned state = seed;
+      scene.move(
+          [&](int, Vector2 const &) {
+            return (uniformNoise(state) < 0.5 ? 0.016 : 0.024) * Vector2{1.0, seed % 2 == 0 ? 1.0 : -1.0};
+          });
+      ResultOnHost const result = scene.remapped();
+      for (int dof = 0; dof < result.dof_nodes.num_dof_nodes; ++dof)
+        for (int d = 0; d < 2; ++d)
+          worst = std::max(worst, std::abs(std::abs(result.state.velocity(dof, d)) - 0.02) - 0.004);
+    }
+  std::printf("out of the range by %.1e of the speed\n", worst / 0.02);
+  EXPECT_LE(worst, 1e-12);
+}
+
 // The halves of a disc part at its middle: that is no slope, and no velocity leaves the range of the two.
 TEST(Bounds, solidDiscWhoseHalvesPart_keepsItsVelocitiesWithinTheirRange)
 {
