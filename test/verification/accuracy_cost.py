@@ -78,10 +78,10 @@ Four scenes with exact answers, each on a row of meshes with every kinematics an
 
 What it says:
 
-- Sod: second order has 0.55 (100 cells) to 0.29 (1600) of first order's error for a tenth more time; third order 3% less again, for a quarter more.
+- Sod: second order has 0.58 (100 cells) to 0.30 (1600) of first order's error for up to a quarter more time; third order 1 to 2% less again, for another quarter.
 - Two bars: the order does not matter. The error is that of time stepping and viscosity ([why](../example/two_bars/README.md)).
 - Squeezed block: `xfem` keeps the momentum to round-off, with any order and on any mesh, since the platens are rigid and their normals exact ([decision 0022](decisions/0022-rigid-surfaces-give-the-normal.md)); `single` misses all of it on every mesh.
-- Verney: the exact answer is that of an incompressible, rigid-plastic shell. Body-fitted meshes tend to 6.5e-4 beyond it, and stress over filled regions ([decision 0012](decisions/0012-stress-of-cut-cells.md)) gives 5.9e-4 to 6.5e-4 on all three: measured against that it is right to 1e-4 on
+- Verney: the exact answer is that of an incompressible, rigid-plastic shell. Body-fitted meshes tend to 6.5e-4 beyond it, and stress over filled regions ([decision 0012](decisions/0012-stress-of-cut-cells.md)) gives 4.8e-4, 6.0e-4 and 6.3e-4 on the three: measured against that it is right to 2e-4 on
   5 cells over the shell, at a tenth more time, where the default is off by 8e-4. Below 6.5e-4 errors make up for each other.
 - Third order costs a quarter more in strips and twice as much around a shell; body-fitted blocks are two to three times cheaper while they survive.
 
