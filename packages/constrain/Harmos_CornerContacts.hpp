@@ -61,6 +61,15 @@ CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pai
                                   SegmentBearing const &bearing, ConstraintOptions const &options, Motion const &before,
                                   double dt, WorkArrays const &work = {});
 
+/// Whether a corner rebounds from the face, of a body or a contact wall, that it touches.
+KOKKOS_INLINE_FUNCTION bool cornerRebounds(Mesh const &mesh, View<Boundary *> const &boundary,
+                                           View<PairInteraction **> const &interaction, InterfaceSegment const &corner,
+                                           InterfaceSegment const &face)
+{
+  return (face.material < 0 ? boundary(mesh.face_boundary(face.cell, face.face)).restitution
+                            : interaction(corner.material, face.material).restitution) > 0.0;
+}
+
 /// The normal of a body at a point of a segment of its outline: of the parabola through its segments around that
 /// (fitNormal).
 KOKKOS_INLINE_FUNCTION Vector2 sideNormal(SegmentBins const &bins, InterfaceSegment const &s, Vector2 const &point)

@@ -253,14 +253,13 @@ struct RowBuilder
     Vector2 const &n = contact.normal, corner = contact.foot + contact.gap * n;
     rows.normal[0] = at_wall ? -n : n;
     double gap = at_wall ? contact.gap : gapAboveArc(bins, face, corner, n, contact.gap);
-    double const restitution = at_wall ? boundary(mesh.face_boundary(face.cell, face.face)).restitution
-                                       : options.interaction(a.material, segment(contact.segment).material).restitution;
-    if (dt > 0.0 && !(restitution > 0.0))
+    InterfaceSegment const &tip = segment(contact.segment);
+    if (dt > 0.0 && !cornerRebounds(mesh, boundary, options.interaction, tip, face))
     {
-      Vector2 const closing = motionOf(face).at(contact.foot) - motionOf(segment(contact.segment)).at(corner);
+      Vector2 const closing = motionOf(face).at(contact.foot) - motionOf(tip).at(corner);
       gap = closedInStep(gap, dt * dot(closing, n), face.cell_size);
     }
-    rows.hit[0] = {at_wall ? contact.face : contact.segment, gap, -dot(face.normal, segment(contact.segment).normal)};
+    rows.hit[0] = {at_wall ? contact.face : contact.segment, gap, -dot(face.normal, tip.normal)};
   }
 
   /// The rows of segment i along `a`: the segment, or the line that it is a piece of.

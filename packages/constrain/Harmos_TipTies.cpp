@@ -20,20 +20,13 @@ struct TipMarker
   View<Boundary *> boundary;
   View<int *> of_tip;
 
-  /// Whether what touches rebounds.
-  KOKKOS_INLINE_FUNCTION bool rebounds(InterfaceSegment const &corner, InterfaceSegment const &face) const
-  {
-    return (face.material < 0 ? boundary(mesh.face_boundary(face.cell, face.face)).restitution
-                              : interaction(corner.material, face.material).restitution) > 0.0;
-  }
-
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
     if (corners.carriedBy(i) < 0)
       return;
     CornerContact const &contact = corners.contact(corners.carriedBy(i));
     InterfaceSegment const &corner = segment(contact.segment);
-    if (bodies.of(corner.material) != -1 || rebounds(corner, segment(contact.face)))
+    if (bodies.of(corner.material) != -1 || cornerRebounds(mesh, boundary, interaction, corner, segment(contact.face)))
       return;
     for (int which : {contact.segment, contact.tip, contact.edge[0], contact.edge[1]})
       for (int k = 0; which >= 0 && cell_region(segment(which).cell) >= 0 && k < 4; ++k)

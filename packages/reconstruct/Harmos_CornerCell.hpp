@@ -78,6 +78,7 @@ KOKKOS_INLINE_FUNCTION bool othersAround(ReconstructionField const &field, CellC
 ///                    boundary a tenth.
 /// \param thorough Of a body drawn alone, whose matter has not flowed: look also where the neighbours hardly miss the
 ///                 straight line, search to the end, and take tips at 1e-4 of the straight line's error.
+/// \param edges What of the corner's edges is asked for.
 HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &field, CellComponents const &components,
                                                  int body, Region const &polygon, Plane2 const *rim,
                                                  Vector2 const &normal, bool thorough, double poor_misfit = 1e-2,

@@ -155,8 +155,11 @@ StageState sweepPureCells(Input const &in, Classes const &classes, Kept &kept, S
   if (in.options.order == 3 && kept.window.spread.extent(0) == 0)
     kept.window.spread = sweptSpreads(kept.chunks);
   stage.velocity = recycle(kept.velocities, "velocity", in.dof_nodes.num_dof_nodes);
-  stage.corner = recycle(kept.corners, "corner", in.mesh.num_cells);
-  stage.own_part = recycle(kept.own_parts, "ownPart", in.dof_nodes.num_dof_nodes);
+  if (classes.num_interface > 0)
+  {
+    stage.corner = recycle(kept.corners, "corner", in.mesh.num_cells);
+    stage.own_part = recycle(kept.own_parts, "ownPart", in.dof_nodes.num_dof_nodes);
+  }
   SweptHeat heat;
   View<double *> damage;
   if (returns_heat)

@@ -16,7 +16,7 @@ struct StageState
   View<double *[num_pair_fields]> record; // num_pairs
   View<double *> kinetic;                 // num_pairs: KineticField; extent 0: not carried through stage 1
   View<double *[2]> velocity;             // num_dof_nodes
-  View<double *[8]> corner;               // num_cells; extent 0: no stage 1. Velocities as the pure cells have them
+  View<double *[8]> corner;               // num_cells; extent 0: only one stage. Velocities as the pure cells have them
   View<double *[2]> own_part;             // num_dof_nodes: part of v^{n+1/2} less the node's that mixed cells have
 
   KOKKOS_INLINE_FUNCTION double kineticEnergy(Input const &in, int pair) const

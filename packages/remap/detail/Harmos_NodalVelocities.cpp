@@ -51,9 +51,9 @@ struct NodalVelocityFunctor
         if (pairs.dof_node(pair, corner) != dof || in.isRigid(pairs.material(pair)))
           continue;
         double const m = share * record(pair, Mass);
-        int const c = candidate(pair), old = in.pairs.offset(cell) + pair - pairs.offset(cell);
-        momentum += m * (interface ? Vector2{acceptors.corner_velocity(c, 2 * corner),
-                                             acceptors.corner_velocity(c, 2 * corner + 1)}
+        int const old = in.pairs.offset(cell) + pair - pairs.offset(cell);
+        momentum += m * (interface ? Vector2{acceptors.corner_velocity(candidate(pair), 2 * corner),
+                                             acceptors.corner_velocity(candidate(pair), 2 * corner + 1)}
                                    : stage.cornerVelocity(in, classes, old, corner));
         mass += m;
       }

@@ -346,8 +346,9 @@ struct QuadraticFinder : PolynomialFinder
 
   /// Unlimited coefficients of x .. yy: of the fit, or of the linear gradient where it fails. Corner velocities that
   /// lie about the cells' centres, where one of the cells is not full, are linear (CornerShift): about the centroids of
-  /// what fills them they are too steep, and what turns gains energy. \return Whether the corner velocities are
-  /// quadratic.
+  /// what fills them they are too steep, and what turns gains energy.
+  ///
+  /// \return Whether the corner velocities are quadratic.
   KOKKOS_INLINE_FUNCTION bool coefficients(int donor, int cell, StageFields const &before, Gradient const &g,
                                            Polynomial &p) const
   {

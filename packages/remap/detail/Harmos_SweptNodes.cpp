@@ -114,7 +114,9 @@ struct SweptNodesFunctor
   /// is where the centroid of the cell has moved, to first order. With the mixed cells' corners at v, their sum is the
   /// node's momentum: but the mean of all cells around would take the lag of those which stage 1 does not move into
   /// those which it does. A component's differences from the mean are kept by one part, so far that all stay in the
-  /// range of the velocities of the cells around. \param mean After.
+  /// range of the velocities of the cells around.
+  ///
+  /// \param mean The node's velocity after.
   HARMOS_RARE_FUNCTION void storeCorners(int node, int dof, Vector2 const &mean) const
   {
     Vector2 least = mean, most = mean;
