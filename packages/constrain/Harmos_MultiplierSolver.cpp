@@ -3,6 +3,7 @@
 #include <Harmos_MultiplierSolver.hpp>
 #include <Harmos_ProjectedNewton.hpp>
 #include <Harmos_RowSums.hpp>
+#include <Harmos_WarmStart.hpp>
 
 namespace Harmos
 {
@@ -239,8 +240,8 @@ class Solve
 public:
   Solve(ContactSystem const &system, ContactRows const &rows, double dt, ConstraintOptions const &options,
         Exchange const &exchange, WorkArrays const &work)
-      : s_(system), exchange_(exchange), contact_(system, rows, exchange, work), c_(system, options.solver, work),
-        work_(work), scale_(Math::max(contact_.largestPredicted(dt), 1e-6 * options.speed_scale)),
+      : s_(system), rows_(rows), dt_(dt), exchange_(exchange), contact_(system, rows, exchange, work),
+        c_(system, options.solver, work), work_(work), scale_(Math::max(contact_.largestPredicted(dt), 1e-6 * options.speed_scale)),
         bound_(options.tolerance * scale_), max_iterations_(options.max_iterations)
   {
     c_.two_sided = hasFriction(s_, exchange_);
@@ -248,8 +249,11 @@ public:
   }
 
   /// p <- bounds(p - r / D)
-  void byRowSums()
+  void byRowSums(std::vector<ContactForce> const &last)
   {
+    if (nothingFits())
+      return;
+    beginAt(last);
     while (!residualFits() && solution.iterations < max_iterations_)
     {
       projectedStep(s_, c_, 1.0, false);
@@ -259,10 +263,10 @@ public:
   }
 
   /// Conjugate gradients; with friction until its bounds fit as well.
-  void byConjugateGradients()
+  void byConjugateGradients(std::vector<ContactForce> const &last)
   {
     constexpr double part = 0.1; // of the residual that one pass with held bounds has to leave
-    if (nothingFits())
+    if (nothingFits() || beginAt(last))
       return;
     c_.fixed_step /= operatorNorm(s_, c_, exchange_);
     descend(c_.two_sided ? Math::max(bound_, part * violation_) : bound_);
@@ -278,19 +282,18 @@ public:
 
   /// Projected Newton steps on the assembled problem; judged by the operator without a matrix, or where groups of rows
   /// share a multiplier by their problem's residual.
-  void byProjectedNewton(Mesh const &mesh, ContactRows const &rows, ConstraintOptions const &options, double dt,
-                         std::vector<ContactForce> const &last)
+  void byProjectedNewton(Mesh const &mesh, ConstraintOptions const &options, std::vector<ContactForce> const &last)
   {
     if (nothingFits())
       return;
     AssembledProblem const problem =
-        assembleDualProblem(mesh, s_, rows, options.placement, options.fluid, exchange_, work_);
+        assembleDualProblem(mesh, s_, rows_, options.placement, options.fluid, exchange_, work_);
     bool const grouped = sharesMultipliers(options.placement);
     DualSolution const dual =
         projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_,
-                        options.warm_start ? problem.unknownsOf(last, dt) : std::vector<double>());
+                        last.empty() ? std::vector<double>() : problem.unknownsOf(last, dt_));
     if (options.warm_start)
-      solution.force = problem.forcesOf(dual.x, dt);
+      solution.force = problem.forcesOf(dual.x, dt_);
     solution.iterations = dual.iterations;
     std::vector<double> spread(grouped ? problem.rows.size() : 0, 0.0);
     for (Spread::Entry const &e : problem.spread.entry)
@@ -303,9 +306,28 @@ public:
     solution.converged = dual.violation <= bound_;
   }
 
+  /// What the next cycle may begin with.
+  void keepForces() { solution.force = forcesOf(s_, rows_, c_.p, dt_, exchange_, work_); }
+
   MultiplierSolution solution;
 
 private:
+  /// Begin with the forces of the last cycle, unless they leave no less than no impulses do, whose residual is known.
+  /// \return Whether they fit.
+  bool beginAt(std::vector<ContactForce> const &last)
+  {
+    if (last.empty())
+      return false;
+    double const none = violation_;
+    beginAtForces(s_, rows_, last, dt_, c_.p, c_.reach, work_);
+    if (residualFits())
+      return true;
+    if (violation_ < none)
+      return false;
+    beginAtForces(s_, rows_, {}, dt_, c_.p, c_.reach, work_);
+    return nothingFits();
+  }
+
   /// Impulses of this rank's rows, and their bounds across n.
   void setImpulses(DualProblem const &problem, std::vector<double> const &x)
   {
@@ -402,6 +424,8 @@ private:
   }
 
   ContactSystem const &s_;
+  ContactRows const &rows_;
+  double const dt_;
   Exchange const &exchange_;
   ContactOperator const contact_;
   Conjugate c_;
@@ -418,12 +442,15 @@ MultiplierSolution solveMultipliers(Mesh const &mesh, ContactSystem const &syste
                                     std::vector<ContactForce> const &last, WorkArrays const &work)
 {
   Solve solve(system, rows, dt, options, exchange, work);
+  std::vector<ContactForce> const start = options.warm_start ? last : std::vector<ContactForce>();
   if (options.solver == MultiplierMethod::RowSums)
-    solve.byRowSums();
+    solve.byRowSums(start);
   else if (options.solver == MultiplierMethod::ProjectedNewton)
-    solve.byProjectedNewton(mesh, rows, options, dt, last);
+    solve.byProjectedNewton(mesh, options, start);
   else
-    solve.byConjugateGradients();
+    solve.byConjugateGradients(start);
+  if (options.warm_start && options.solver != MultiplierMethod::ProjectedNewton)
+    solve.keepForces();
   return solve.solution;
 }
 

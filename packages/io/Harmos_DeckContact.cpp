@@ -47,10 +47,8 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
   deck.constraint.solver = solver == "row sums"              ? MultiplierMethod::RowSums
                            : solver == "conjugate gradients" ? MultiplierMethod::ConjugateGradients
                                                              : MultiplierMethod::ProjectedNewton;
-  if (deck.constraint.solver == MultiplierMethod::ProjectedNewton)
+  if (!is_explicit)
     deck.constraint.warm_start = list.get<bool>("warm_start");
-  check.require(!deck.constraint.warm_start || !is_explicit, "numerics/constraint/warm_start",
-                "method " + method + " has nothing to solve; expected: false");
   check.require(!deck.constraint.warm_start || !sharesMultipliers(deck.constraint.placement),
                 "numerics/constraint/warm_start",
                 "groups of rows have no forces of the last cycle; expected: false, or placement midpoint, gauss points "

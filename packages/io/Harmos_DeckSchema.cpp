@@ -246,8 +246,6 @@ void addNumerics(ParameterList &list)
       "of the multipliers. projected newton: with a factor of the assembled matrix, on every rank the whole problem; "
       "conjugate gradients: with projections, without a matrix; row sums: the plain iteration with the row sums of the "
       "operator, for comparison");
-  add(c.sublist("solver = projected newton"), "warm_start", constraint.warm_start, rulesOf(KeyType::Bool),
-      "begin with the forces of the last cycle");
   for (char const *method : {"multipliers", "nodal", "merged"})
   {
     ParameterList &solved = c.sublist(std::string("method = ") + method);
@@ -255,6 +253,8 @@ void addNumerics(ParameterList &list)
         "relative residual of the multipliers");
     add(solved, "max_iterations", constraint.max_iterations, integer({1.0, infinity, false, false}),
         "limit for one cycle");
+    add(solved, "warm_start", constraint.warm_start, rulesOf(KeyType::Bool),
+        "whether the solver begins with the forces of the last cycle");
   }
   for (char const *method : {"multipliers", "penalty", "nitsche"})
   {

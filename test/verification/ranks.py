@@ -90,7 +90,8 @@ def test_failure_on_one_rank_alone():
 
 
 def test_free_rigid_ball_in_contact_begun_with_the_last_forces():
-    clean(compare(HERE / "rigid_ball.yaml", {"numerics/constraint/warm_start": "true"}, ranks=(2, 4)))
+    for solver in ("projected newton", "conjugate gradients"):
+        clean(compare(HERE / "rigid_ball.yaml", {"numerics/constraint": f"{{solver: {solver}, warm_start: true}}"}, ranks=(2, 4)))
 
 
 def test_free_rigid_ball_in_contact():

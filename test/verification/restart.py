@@ -77,6 +77,11 @@ def test_solver_that_begins_with_the_last_forces():
     clean(whole, part, cold)
 
 
+def test_conjugate_gradients_that_begin_with_the_last_forces():
+    warm = {"bodies/block/pressure": 6.75e8, "numerics/constraint": "{solver: conjugate gradients, warm_start: true}"}
+    clean(*goes_on(BLOCK, warm, cycles=(23, 30)))
+
+
 def test_lagrangian():
     clean(*goes_on(BLOCKS))
 

@@ -61,7 +61,8 @@ TEST(DeckContact, everyMethodHasItsWord)
   EXPECT_EQ(read({"numerics/constraint/placement=mortar"}).constraint.placement, Placement::Mortar);
   EXPECT_EQ(read({}).constraint.solver, MultiplierMethod::ProjectedNewton);
   EXPECT_FALSE(read({}).constraint.warm_start);
-  EXPECT_TRUE(read({"numerics/constraint/warm_start=true"}).constraint.warm_start);
+  for (std::string const solver : {"projected newton", "conjugate gradients", "row sums"})
+    EXPECT_TRUE(read({"numerics/constraint={solver: " + solver + ", warm_start: true}"}).constraint.warm_start);
   EXPECT_EQ(read({"numerics/constraint/solver=row sums"}).constraint.solver, MultiplierMethod::RowSums);
   EXPECT_EQ(read({"numerics/constraint/solver=conjugate gradients"}).constraint.solver,
             MultiplierMethod::ConjugateGradients);
@@ -89,10 +90,8 @@ TEST(DeckContact, whatHasNoMeaning_isRefused)
   expectRefused({"numerics/constraint/penalty=1"}, "deck.yaml: numerics/constraint/penalty: does not belong here");
   expectRefused({"numerics/constraint={method: penalty, solver: row sums}"},
                 "deck.yaml: numerics/constraint/solver: \"row sums\" has nothing to solve with method penalty");
-  expectRefused({"numerics/constraint={solver: row sums, warm_start: true}"},
-                "deck.yaml: numerics/constraint/warm_start: does not belong here");
   expectRefused({"numerics/constraint={method: nitsche, warm_start: true}"},
-                "deck.yaml: numerics/constraint/warm_start: method nitsche has nothing to solve");
+                "deck.yaml: numerics/constraint/warm_start: does not belong here");
   expectRefused({"numerics/constraint={placement: mortar, warm_start: true}"},
                 "deck.yaml: numerics/constraint/warm_start: groups of rows");
   for (std::string const placement : {"vital vertices", "mortar"})
