@@ -122,6 +122,21 @@ bool canBreak(HostView<PairInteraction **> const &law)
   return false;
 }
 
+/// The same interactions, bonds of any strength: what may be bonded before it is known where bonds are.
+ConstraintOptions unlimited(ConstraintOptions options, HostView<PairInteraction **> const &law)
+{
+  options.interaction = View<PairInteraction **>("Harmos::constrain::unlimited", law.extent(0), law.extent(1));
+  HostView<PairInteraction **> const endless("Harmos::constrain::unlimited_host", law.extent(0), law.extent(1));
+  for (std::size_t i = 0; i < law.extent(0); ++i)
+    for (std::size_t j = 0; j < law.extent(1); ++j)
+    {
+      endless(i, j) = law(i, j);
+      endless(i, j).strength = {};
+    }
+  Kokkos::deep_copy(options.interaction, endless);
+  return options;
+}
+
 /// The load of bonded rows as the nodes feel it. Multipliers of single rows may alternate where more rows meet than the
 /// nodes can tell apart; what they add up to at a node cannot.
 struct NodalLoad
@@ -217,7 +232,8 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
   if (!canBreak(law))
     return {};
   BodyTable const table = buildBodyTable(bodies, static_cast<int>(law.extent(0)));
-  ContactRows const rows = findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, {}, options, exchange);
+  ContactRows const rows =
+      findContactRows(mesh, pairs, dof_nodes, regions, conditions, table, {}, unlimited(options, law), exchange);
   std::vector<double> const values = gather(ownBonds(mesh, rows, law), exchange);
   std::vector<std::array<double, bond_width>> found(values.size() / bond_width);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -244,7 +260,8 @@ int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &optio
     if (bonds[i].broken)
       continue;
     carry(load[i], kick, bonds[i]);
-    bonds[i].broken = breaks(bonds[i].traction, law(bonds[i].material_a, bonds[i].material_b).strength);
+    bonds[i].broken =
+        load[i].snapped || breaks(bonds[i].traction, law(bonds[i].material_a, bonds[i].material_b).strength);
     count += bonds[i].broken ? 1 : 0;
   }
   return count;
@@ -279,7 +296,45 @@ void sumBondLoads(ContactSystem const &system, ContactRows const &rows, View<dou
               { quanta[3 * bond + static_cast<std::size_t>(c)] += sum[c].quanta(term); });
   exchange.sum(quanta.data(), static_cast<int>(quanta.size()));
   for (std::size_t i = 0; i < load.size(); ++i)
-    load[i] = {sum[0].value(quanta[3 * i]), sum[1].value(quanta[3 * i + 1]), sum[2].value(quanta[3 * i + 2])};
+    load[i] = {sum[0].value(quanta[3 * i]), sum[1].value(quanta[3 * i + 1]), sum[2].value(quanta[3 * i + 2]),
+               load[i].snapped};
+}
+
+bool snapRigidBonds(ContactRows const &rows, std::vector<RigidBody> const &bodies, std::vector<Bond> const &bonds,
+                    ConstraintOptions const &options, double kick, std::vector<BondLoad> &load)
+{
+  if (bonds.empty() || bodies.size() < 2)
+    return false;
+  auto const law = onHost(options.interaction);
+  std::vector<char> rigid(law.extent(0), 0);
+  for (RigidBody const &body : bodies)
+    rigid[static_cast<std::size_t>(body.material)] = 1;
+  HostView<int *> const snapped("Harmos::constrain::snapped_host", bonds.size());
+  bool any = false;
+  for (std::size_t i = 0; i < bonds.size(); ++i)
+  {
+    Bond bond = bonds[i];
+    bool const both =
+        rigid[static_cast<std::size_t>(bond.material_a)] && rigid[static_cast<std::size_t>(bond.material_b)];
+    if (bond.broken || load[i].snapped || !both)
+      continue;
+    carry(load[i], kick, bond);
+    if (!breaks(bond.traction, law(bond.material_a, bond.material_b).strength))
+      continue;
+    load[i].snapped = any = true;
+    snapped(i) = 1;
+  }
+  if (!any)
+    return false;
+  View<int *> const gone("Harmos::constrain::snapped", bonds.size());
+  Kokkos::deep_copy(gone, snapped);
+  View<ContactRow *> const row = rows.row;
+  Kokkos::parallel_for(
+      "Harmos::constrain::snapRigidBonds", RangePolicy(0, rows.count), KOKKOS_LAMBDA(int i) {
+        if (row(i).bond >= 0 && gone(row(i).bond) != 0)
+          row(i).tied = 0;
+      });
+  return true;
 }
 
 } // namespace Harmos

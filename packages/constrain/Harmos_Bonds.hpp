@@ -36,6 +36,7 @@ struct BondLoad
   double normal = 0.0;     // impulse along n, negative in tension [N s/m]
   double tangential = 0.0; // across n [N s/m]
   double length = 0.0;     // of the rows' segments [length]
+  bool snapped = false;    // between rigid bodies: it broke before the cycle's impulses were found
 };
 
 /// Farthest that a bond reaches. [cell sizes]

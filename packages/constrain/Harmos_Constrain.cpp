@@ -73,21 +73,36 @@ std::vector<RigidBody> meanBodies(std::vector<RigidBody> const &bodies_n, std::v
   return mean;
 }
 
+/// Solve with the iterations that are left after `solution`, whose others count with those of the new one.
+/// \return False: none are left, and it did not converge.
+bool solveOn(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, double dt,
+             ConstraintOptions options, Exchange const &exchange, std::vector<ContactForce> const &last,
+             WorkArrays const &work, MultiplierSolution &solution)
+{
+  int const before = solution.iterations;
+  options.max_iterations -= before;
+  if (options.max_iterations < 1)
+  {
+    solution.converged = false;
+    return false;
+  }
+  solution = solveMultipliers(mesh, system, rows, dt, options, exchange, last, work);
+  solution.iterations += before;
+  return true;
+}
+
 /// Solve, and anew while rows with restitution bear that were not about to touch: what strikes them is what others'
 /// impulses move. Each time some row more obeys the law of impact, so that this ends.
-MultiplierSolution solveWithRebound(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows,
-                                    Motion const &before, Motion const &predicted, double dt,
-                                    ConstraintOptions const &options, Exchange const &exchange,
-                                    std::vector<ContactForce> const &last, WorkArrays const &work)
+/// \param solution What was found before; its iterations count.
+/// \return False: it took all iterations.
+bool solveWithRebound(Mesh const &mesh, ContactSystem const &system, ContactRows const &rows, Motion const &before,
+                      Motion const &predicted, double dt, ConstraintOptions const &options, Exchange const &exchange,
+                      std::vector<ContactForce> const &last, WorkArrays const &work, MultiplierSolution &solution)
 {
-  MultiplierSolution solution = solveMultipliers(mesh, system, rows, dt, options, exchange, last, work);
-  while (reboundWhereStruck(rows, before, predicted, dt, solution.impulse, exchange, system))
-  {
-    int const iterations = solution.iterations;
-    solution = solveMultipliers(mesh, system, rows, dt, options, exchange, last, work);
-    solution.iterations += iterations;
-  }
-  return solution;
+  bool goes_on = solveOn(mesh, system, rows, dt, options, exchange, last, work, solution);
+  while (goes_on && reboundWhereStruck(rows, before, predicted, dt, solution.impulse, exchange, system))
+    goes_on = solveOn(mesh, system, rows, dt, options, exchange, last, work, solution);
+  return goes_on;
 }
 
 /// Kinematics `single` without contact walls: both sides of every interface move with the same dof nodes.
@@ -147,7 +162,7 @@ ContactRows findContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, No
   }
   OutlineRows between;
   if (table.outlined)
-    between = findOutlineRows(mesh, segments, conditions, outline, predicted, options, exchange, largest, dt);
+    between = findOutlineRows(mesh, segments, conditions, outline, predicted, bonds, options, exchange, largest, dt);
   rows.num_multipliers += between.num_multipliers;
   exchange.sum(&rows.num_multipliers, 1);
   if (rows.num_multipliers > 0)
@@ -224,12 +239,20 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
     moveFreeBodies(of_facets, pressure.solution.body_change, bodies);
     after = {borrowed(pushed), withBodies(table, bodies, arrays)};
   }
-  ContactSystem const system = buildContactSystem(cells, borrowed(pairs), rows, dofs, borrowed(conditions),
-                                                  borrowed(dof_mass), before, after, bodies, dt, scale, arrays);
-  MultiplierSolution const solution =
-      is_explicit
-          ? explicitImpulses({mesh, pairs, before, stress.cauchy}, system, rows, dt, kick, options, exchange, arrays)
-          : solveWithRebound(mesh, system, rows, before, after, dt, options, exchange, last, arrays);
+  ContactSystem system;
+  MultiplierSolution solution;
+  bool goes_on = true;
+  do
+  {
+    system = buildContactSystem(cells, borrowed(pairs), rows, dofs, borrowed(conditions), borrowed(dof_mass), before,
+                                after, bodies, dt, scale, arrays);
+    if (is_explicit)
+      solution =
+          explicitImpulses({mesh, pairs, before, stress.cauchy}, system, rows, dt, kick, options, exchange, arrays);
+    else
+      goes_on = solveWithRebound(mesh, system, rows, before, after, dt, options, exchange, last, arrays, solution);
+    sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load, arrays);
+  } while (goes_on && snapRigidBonds(rows, bodies, bonds, options, kick, report.bond_load));
   report.iterations = solution.iterations;
   report.residual = solution.residual;
   report.converged = solution.converged;
@@ -244,7 +267,6 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
   if (tractions.rows.num_multipliers > 0)
     sumConstraint(pressure.system, tractions.rows, pressure.solution, cells, dofs, velocity_n, half, mean,
                   num_materials, exchange, false, report, arrays);
-  sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load, arrays);
   return report;
 }
 

@@ -25,10 +25,17 @@ void sumConstraint(ContactSystem const &system, ContactRows const &rows, Multipl
                    Exchange const &exchange, bool tell_pressure, ConstraintReport &report,
                    WorkArrays const &arrays = {});
 
-/// Add up what the own rows of all ranks carry around their bonds, as their nodes feel it: the same bits on any number
-/// of ranks. Collective.
+/// Add up what the own rows of all ranks carry around their bonds that have not snapped, as their nodes feel it: the
+/// same bits on any number of ranks. Collective.
 void sumBondLoads(ContactSystem const &system, ContactRows const &rows, View<double *[2]> const &impulse,
                   Exchange const &exchange, std::vector<BondLoad> &load, WorkArrays const &work = {});
+
+/// Rigid bodies bear impulses: a bond between two of them does not hold the one that it cannot bear for a cycle, but
+/// snaps (BondLoad::snapped), and its rows slide from this solve on.
+/// \param kick Time over which impulses act [s]
+/// \return Whether one did: the impulses are to be found anew.
+bool snapRigidBonds(ContactRows const &rows, std::vector<RigidBody> const &bodies, std::vector<Bond> const &bonds,
+                    ConstraintOptions const &options, double kick, std::vector<BondLoad> &load);
 
 } // namespace Harmos
 

@@ -14,6 +14,7 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
                              double dt, WorkArrays const &work, PressureTractions *tractions)
 {
   SegmentBearing const bearing{options.short_segments, options.shortest_segment, options.placement, options.fluid};
+  BondedPlaces const bonded{options.interaction, binBonds(bonds, work)};
   RowBuilder const builder{
       mesh,
       pairs,
@@ -26,12 +27,12 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
       facingSegments(segments.segment, hit, bins, work),
       bodies,
       conditions.boundary,
-      binBonds(bonds, work),
+      bonded,
       options,
       bins,
       before,
       dt,
-      findCornerContacts(mesh, pairs, segments, hit, bins, bodies, bearing, options, before, dt, work)};
+      findCornerContacts(mesh, pairs, segments, hit, bins, bodies, bearing, options, bonded, before, dt, work)};
   View<PlannedRows *> const planned = work.unset<PlannedRows *>("Harmos::constrain::planned", segments.count);
   launchFor(
       "Harmos::constrain::planRows", segments.count, KOKKOS_LAMBDA(int i) { builder.plan(i, planned(i)); });

@@ -156,8 +156,9 @@ KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Mo
   return relative + row.restitution * start + (1.0 - row.restitution) * back;
 }
 
-/// Rows of which less can move ask for nothing: a splinter between a driven body and a wall of the mesh a thousandth of
-/// a cell behind would have to move nodes at a thousand times the body's speed, and further than their cells reach.
+/// Rows of which less can move along n ask for nothing (bonded ones across it neither): a splinter between a driven
+/// body and a wall of the mesh a thousandth of a cell behind would have to move nodes at a thousand times the body's
+/// speed, and further than their cells reach.
 constexpr double least_movable_part = 1e-3;
 
 /// How much of a row's velocity along direction k its own nodes and bodies can change: for each side one, less what
@@ -215,10 +216,10 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         out.predicted[0] = r.tied ? along : out.struck ? rebound(r, along, before, dt) : closing;
         out.opening = r.tied || out.struck ? 0.0 : closing - along;
         out.predicted[1] = s.directions(i) == 2 ? dot(perpendicular(r.normal), relative) : 0.0;
-        for (int k = 0; k < s.directions(i); ++k)
+        for (int k = 0; k < (r.tied ? 2 : 1); ++k) // what slides across n is rubbed on, whether it gives way or not
           if (movablePart(s, r, i, k) < least_movable_part)
           {
-            out.predicted[k] = r.tied || k == 1 ? 0.0 : Math::max(0.0, out.predicted[k]);
+            out.predicted[k] = r.tied ? 0.0 : Math::max(0.0, out.predicted[k]);
             out.opening = k == 0 ? 0.0 : out.opening;
           }
       });

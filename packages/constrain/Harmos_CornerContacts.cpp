@@ -28,6 +28,7 @@ struct CornerFinder
   BodyTable bodies;
   SegmentBearing bearing;
   ConstraintOptions options;
+  BondedPlaces bonded;
   Motion before;
   double dt;
 
@@ -192,7 +193,7 @@ struct CornerFinder
       return false;
     if (face.material < 0)
       return true;
-    return isSolid(face.material) && options.interaction(face.material, material).kind != Interaction::Bonded &&
+    return isSolid(face.material) && !bonded.at(face.point, face.cell_size, face.material, material) &&
            (hit(f).segment < 0 || segment(hit(f).segment).material == material);
   }
 
@@ -314,10 +315,11 @@ void giveToCarriers(CornerFinder const &finder, CornerContacts &corners, WorkArr
 
 CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pairs, InterfaceSegments const &segments,
                                   View<RayHit *> const &hit, SegmentBins const &bins, BodyTable const &bodies,
-                                  SegmentBearing const &bearing, ConstraintOptions const &options, Motion const &before,
-                                  double dt, WorkArrays const &work)
+                                  SegmentBearing const &bearing, ConstraintOptions const &options,
+                                  BondedPlaces const &bonded, Motion const &before, double dt, WorkArrays const &work)
 {
-  CornerFinder const finder{mesh, pairs, segments, segments.segment, hit, bins, bodies, bearing, options, before, dt};
+  CornerFinder const finder{mesh,   pairs,   segments, segments.segment, hit,    bins,
+                            bodies, bearing, options,  bonded,           before, dt};
   View<int *> const leading = work.unset<int *>("Harmos::constrain::before_corner", segments.count);
   CornerContacts corners;
   launchScan(

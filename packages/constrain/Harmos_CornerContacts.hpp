@@ -2,6 +2,7 @@
 #ifndef HARMOS_CORNER_CONTACTS_HPP
 #define HARMOS_CORNER_CONTACTS_HPP
 
+#include <Harmos_BondedPlaces.hpp>
 #include <Harmos_ContactRows.hpp>
 #include <Harmos_NormalFit.hpp>
 #include <Harmos_SegmentBearing.hpp>
@@ -58,8 +59,9 @@ struct CornerContacts
 /// \param hit Of the segments' rays: a face whose ray meets a third body bears no corner.
 CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pairs, InterfaceSegments const &segments,
                                   View<RayHit *> const &hit, SegmentBins const &bins, BodyTable const &bodies,
-                                  SegmentBearing const &bearing, ConstraintOptions const &options, Motion const &before,
-                                  double dt, WorkArrays const &work = {});
+                                  SegmentBearing const &bearing, ConstraintOptions const &options,
+                                  BondedPlaces const &bonded, Motion const &before, double dt,
+                                  WorkArrays const &work = {});
 
 /// Whether a corner rebounds from the face, of a body or a contact wall, that it touches.
 KOKKOS_INLINE_FUNCTION bool cornerRebounds(Mesh const &mesh, View<Boundary *> const &boundary,

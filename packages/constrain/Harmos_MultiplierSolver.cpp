@@ -17,9 +17,9 @@ struct Conjugate
   View<double *[2]> p;         // impulses, feasible
   View<double *[2]> r;         // b + A p
   View<double *> reach;        // bounds across n by friction
+  View<double *[2]> term;      // own rows: summands
   View<double *[2]> direction; // of p; this and what follows of conjugate gradients alone
   View<double *[2]> product;   // A direction
-  View<double *[2]> term;      // own rows: summands
   double fixed_step = 1.9;     // of projected gradient steps, below 2 / (norm of the scaled operator)
   bool two_sided = false;      // some row has friction
 
@@ -28,11 +28,13 @@ struct Conjugate
         r(work.unset<double *[2]>("Harmos::constrain::residual", s.num_rows)),
         reach(work.zeros<double *>("Harmos::constrain::reach", s.num_rows))
   {
+    if (method == MultiplierMethod::ProjectedNewton)
+      return;
+    term = work.zeros<double *[2]>("Harmos::constrain::terms", s.num_own);
     if (method != MultiplierMethod::ConjugateGradients)
       return;
     direction = work.zeros<double *[2]>("Harmos::constrain::direction", s.num_rows);
     product = work.zeros<double *[2]>("Harmos::constrain::product", s.num_rows);
-    term = work.zeros<double *[2]>("Harmos::constrain::terms", s.num_own);
   }
 };
 
@@ -241,22 +243,24 @@ public:
   Solve(ContactSystem const &system, ContactRows const &rows, double dt, ConstraintOptions const &options,
         Exchange const &exchange, WorkArrays const &work)
       : s_(system), rows_(rows), dt_(dt), exchange_(exchange), contact_(system, rows, exchange, work),
-        c_(system, options.solver, work), work_(work), scale_(Math::max(contact_.largestPredicted(dt), 1e-6 * options.speed_scale)),
+        c_(system, options.solver, work), work_(work),
+        scale_(Math::max(contact_.largestPredicted(dt), 1e-6 * options.speed_scale)),
         bound_(options.tolerance * scale_), max_iterations_(options.max_iterations)
   {
     c_.two_sided = hasFriction(s_, exchange_);
     solution = {c_.p, contact_.change(), contact_.bodyChange()};
   }
 
-  /// p <- bounds(p - r / D)
+  /// p <- bounds(p - r / D), with free bodies, which the row sums leave out, r over their trace's bound of the norm
   void byRowSums(std::vector<ContactForce> const &last)
   {
     if (nothingFits())
       return;
     beginAt(last);
+    double const step = 1.0 / operatorNorm(s_, c_, exchange_);
     while (!residualFits() && solution.iterations < max_iterations_)
     {
-      projectedStep(s_, c_, 1.0, false);
+      projectedStep(s_, c_, step, false);
       setReach(s_, c_);
       ++solution.iterations;
     }
@@ -273,6 +277,11 @@ public:
     while (c_.two_sided)
     {
       setReach(s_, c_);
+      if (solution.iterations >= max_iterations_)
+      {
+        residualFits();
+        return;
+      }
       ++solution.iterations;
       if (residualFits() || solution.iterations >= max_iterations_)
         return;
@@ -289,9 +298,8 @@ public:
     AssembledProblem const problem =
         assembleDualProblem(mesh, s_, rows_, options.placement, options.fluid, exchange_, work_);
     bool const grouped = sharesMultipliers(options.placement);
-    DualSolution const dual =
-        projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_,
-                        last.empty() ? std::vector<double>() : problem.unknownsOf(last, dt_));
+    DualSolution const dual = projectedNewton(grouped ? problem.groups : problem.rows, 0.9 * bound_, max_iterations_,
+                                              last.empty() ? std::vector<double>() : problem.unknownsOf(last, dt_));
     if (options.warm_start)
       solution.force = problem.forcesOf(dual.x, dt_);
     solution.iterations = dual.iterations;
@@ -399,6 +407,8 @@ private:
     }
     if (slope.curvature > 0.0)
       advance(s_, c_, longest);
+    if (solution.iterations >= max_iterations_)
+      return;
     projectedStep(s_, c_, c_.fixed_step, true);
     contact_.residual(c_.p, c_.r);
     ++solution.iterations;

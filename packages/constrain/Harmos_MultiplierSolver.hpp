@@ -26,7 +26,8 @@ struct MultiplierSolution
 /// Friction by fixed point: the bounds across n are held while the convex problem of all impulses is solved, then set
 /// anew, until normal and tangential impulses fit together; the residual is judged with the new bounds.
 ///
-/// MultiplierMethod::RowSums is the plain iteration p <- bounds(p - r / D), for comparison.
+/// MultiplierMethod::RowSums is the plain iteration p <- bounds(p - r / D), for comparison; with free rigid bodies r is
+/// divided by the bound of the norm below.
 ///
 /// MultiplierMethod::ConjugateGradients: modified proportioning with reduced gradient projections (MPRGP), for p.A p/2
 /// + b.p over p >= 0 in the scaled unknowns sqrt(D) p, D the row sums of the deformable part of A. The scaled

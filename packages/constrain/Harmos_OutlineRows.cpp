@@ -88,10 +88,28 @@ bool axisymmetric(Mesh const &mesh)
   return mesh.geometry == Geometry::Axisymmetric;
 }
 
+/// Whether the nearest bond of the row's bodies within reach is whole.
+bool isBonded(ContactRow const &row, std::vector<Bond> const &bonds)
+{
+  int const low = std::min(row.material_a, row.material_b), high = std::max(row.material_a, row.material_b);
+  Bond const *nearest = nullptr;
+  double least = 0.0;
+  for (Bond const &bond : bonds)
+  {
+    double const apart = norm(bond.point - row.point);
+    if (bond.material_a != low || bond.material_b != high || apart >= bond_reach * bond.cell_size ||
+        (nearest != nullptr && apart >= least))
+      continue;
+    nearest = &bond;
+    least = apart;
+  }
+  return nearest != nullptr && !nearest->broken;
+}
+
 /// Rows between bodies, in the order of their keys; the same on all ranks.
 std::vector<ContactRow> bodyRows(Mesh const &mesh, std::vector<Shape> const &outline,
-                                 std::vector<RigidBody> const &bodies, ConstraintOptions const &options, double reach,
-                                 double dt)
+                                 std::vector<RigidBody> const &bodies, std::vector<Bond> const &bonds,
+                                 ConstraintOptions const &options, double reach, double dt)
 {
   auto const interaction = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), options.interaction);
   std::vector<Box> box;
@@ -107,8 +125,15 @@ std::vector<ContactRow> bodyRows(Mesh const &mesh, std::vector<Shape> const &out
     {
       PairInteraction const &law = interaction(bodies[i].material, bodies[j].material);
       bool const driven = bodies[i].motion != RigidMotion::Free && bodies[j].motion != RigidMotion::Free;
-      if (i != j && !driven && law.kind != Interaction::Bonded && box[i].meets(box[j]))
-        addBodyRows(outline, bodies, i, j, law, reach, dt, rows);
+      bool const bonded = law.kind == Interaction::Bonded;
+      if (i == j || driven || (bonded && !law.strength.limited()) || !box[i].meets(box[j]))
+        continue;
+      std::size_t const first = rows.size();
+      addBodyRows(outline, bodies, i, j, law, reach, dt, rows);
+      if (bonded)
+        rows.erase(std::remove_if(rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
+                                  [&](ContactRow const &row) { return isBonded(row, bonds); }),
+                   rows.end());
     }
   if (axisymmetric(mesh)) // what lies beyond the axis is no part of the bodies
     rows.erase(
@@ -214,12 +239,13 @@ int addWallRows(WallRows const &walls, int num_segments, View<ContactRow *> &row
 
 OutlineRows findOutlineRows(Mesh const &mesh, InterfaceSegments const &segments, BoundaryConditions const &conditions,
                             std::vector<Shape> const &outline, std::vector<RigidBody> const &bodies,
-                            ConstraintOptions const &options, Exchange const &exchange, double reach, double dt)
+                            std::vector<Bond> const &bonds, ConstraintOptions const &options, Exchange const &exchange,
+                            double reach, double dt)
 {
   OutlineRows rows;
   if (std::none_of(bodies.begin(), bodies.end(), [](RigidBody const &b) { return b.motion == RigidMotion::Free; }))
     return rows;
-  std::vector<ContactRow> const between = bodyRows(mesh, outline, bodies, options, reach, dt);
+  std::vector<ContactRow> const between = bodyRows(mesh, outline, bodies, bonds, options, reach, dt);
   if (exchange.rank() == 0)
   {
     rows.row = deviceCopy("Harmos::constrain::outline_row", between);

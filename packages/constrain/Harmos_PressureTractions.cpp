@@ -92,11 +92,10 @@ struct TractionFinder
     InterfaceSegment const &b = builder.segment(facing);
     if (b.material < 0)
       return true;
-    bool const tied = builder.options.interaction(a.material, b.material).kind == Interaction::Bonded;
     bool const two_fluids = builder.bearing.isPressed(b);
     if (two_fluids && (builder.mesh.geometry != Geometry::Planar || !builder.isSlave(a, b)))
       return false;
-    return !tied && builder.haveOwnNodes(a);
+    return !builder.areBonded(a, b) && builder.haveOwnNodes(a);
   }
 
   /// Whether two segments are the two sides of one line.

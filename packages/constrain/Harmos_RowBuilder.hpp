@@ -3,7 +3,7 @@
 #define HARMOS_ROW_BUILDER_HPP
 
 #include <Harmos_BentEdge.hpp>
-#include <Harmos_BondBins.hpp>
+#include <Harmos_BondedPlaces.hpp>
 #include <Harmos_ContactRows.hpp>
 #include <Harmos_CornerContacts.hpp>
 #include <Harmos_CurvedGap.hpp>
@@ -30,7 +30,7 @@ struct RowBuilder
   FacingSegments facing;
   BodyTable bodies;
   View<Boundary *> boundary;
-  BondBins bonds;
+  BondedPlaces bonded;
   ConstraintOptions options;
   SegmentBins bins;
   Motion before;
@@ -47,11 +47,16 @@ struct RowBuilder
     return a.material < b.material && !(b.cell_size < finer * a.cell_size);
   }
 
+  /// Whether two sides are bonded, at a's point.
+  KOKKOS_INLINE_FUNCTION bool areBonded(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    return bonded.at(a.point, a.cell_size, a.material, b.material);
+  }
+
   /// Whether the rows between two sides come from their outlines (Harmos_OutlineRows.hpp).
   KOKKOS_INLINE_FUNCTION bool meetByOutline(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
-    return bodies.outlined && bodyOf(a.material) >= 0 && bodyOf(b.material) != -1 &&
-           (b.material < 0 || options.interaction(a.material, b.material).kind != Interaction::Bonded);
+    return bodies.outlined && bodyOf(a.material) >= 0 && bodyOf(b.material) != -1 && !areBonded(a, b);
   }
 
   /// Whether two sides pass each other by so much in this step that no length is too short for a row.
@@ -168,8 +173,7 @@ struct RowBuilder
   KOKKOS_INLINE_FUNCTION bool endGoesThrough(InterfaceSegment const &a, RayHit const &to) const
   {
     InterfaceSegment const &b = segment(to.segment);
-    if (!(dt > 0.0) || options.placement != Placement::Midpoint || a.parts > 1 ||
-        (b.material >= 0 && options.interaction(a.material, b.material).kind == Interaction::Bonded))
+    if (!(dt > 0.0) || options.placement != Placement::Midpoint || a.parts > 1 || areBonded(a, b))
       return false;
     double const slope = dot(a.normal, b.normal);
     SideMotion const of_a = motionOf(a), of_b = motionOf(b);
@@ -199,9 +203,7 @@ struct RowBuilder
     double const h = a.cell_size;
     bool const fitted = a.face >= 0 && mesh.face_neighbour(a.cell, a.face) < 0;
     if (to.gap > touching_gap * h || a.parts * a.length > longest * h || fitted || b.material < 0 ||
-        bearing.isPressed(a) || bearing.isPressed(b) ||
-        options.interaction(a.material, b.material).kind == Interaction::Bonded ||
-        touchingLength(facing, a, b.material) > few)
+        bearing.isPressed(a) || bearing.isPressed(b) || touchingLength(facing, a, b.material) > few)
       return to;
     return {to.segment, Math::max(to.gap, h * curvedGap(bins, a, b.material, normal)), to.cosine};
   }
@@ -416,13 +418,6 @@ struct RowBuilder
     return found;
   }
 
-  /// Number of the nearest bond of the row's materials within reach.
-  KOKKOS_INLINE_FUNCTION int nearestBond(ContactRow const &row) const
-  {
-    return bonds.nearest(row.point, bond_reach * Math::sqrt(mesh.cell_area(row.cell_a)),
-                         Math::min(row.material_a, row.material_b), Math::max(row.material_a, row.material_b));
-  }
-
   /// What acts along the row besides its normal contact.
   KOKKOS_INLINE_FUNCTION void setInteraction(InterfaceSegment const &b, ContactRow &row) const
   {
@@ -442,8 +437,8 @@ struct RowBuilder
       return;
     if (law.strength.limited())
     {
-      row.bond = nearestBond(row);
-      row.tied = row.bond >= 0 && !bonds.bond(row.bond).broken ? 1 : 0;
+      row.bond = bonded.nearest(row.point, Math::sqrt(mesh.cell_area(row.cell_a)), row.material_a, row.material_b);
+      row.tied = row.bond >= 0 && !bonded.bonds.bond(row.bond).broken ? 1 : 0;
     }
     else
       row.tied = 1;

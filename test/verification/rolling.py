@@ -64,6 +64,20 @@ def test_a_disc_spins_on_a_smooth_floor_as_it_began():
     clean(r)
 
 
+def test_a_bond_of_rigid_bodies_holds_what_it_bears_and_snaps_where_an_impulse_is_more():
+    for strength, slides in ((1e-3, True), (1e9, False)):
+        r = harmos(DECK, {"interactions": f"{{default: bonded, tensile_strength: {strength}, shear_strength: {strength}}}",
+                          "bodies/disc": box_on_slope(0.0, -0.4, (0.4, 0.2))[:-1] + ", velocity: [1.0, 0.0]}", "gravity": "[0.0, 0.0]"})
+        speed, _ = motion(r)
+        if slides:
+            check(f"speed that a bond of {strength} Pa takes", abs(speed - 1.0), 2e-3)
+            assert r.summary["broken_bonds"] > 0
+        else:
+            check(f"speed that a bond of {strength} Pa leaves", speed, 1e-9)
+            assert r.summary["broken_bonds"] == 0
+        clean(r)
+
+
 def in_ring(settings):
     """A disc of radius 0.2 that touches the inside of a fixed ring of radius 0.5."""
     bodies = "{material: hard, shape: annulus, center: [0.013, -0.027], inner_radius: 0.5, outer_radius: 0.62, motion: fixed}"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TinyScene.hpp"
 
+#include <Harmos_DualProblem.hpp>
+
 #include <gtest/gtest.h>
 
 using namespace HarmosTest;
@@ -393,4 +395,80 @@ TEST(Constrain, tooFewIterations_areReported)
     auto const before = scene.sums(scene.predicted, -2), after = scene.sums(scene.half, -2);
     EXPECT_NEAR(norm(after.momentum - before.momentum), 0.0, 1e-12 * V * before.mass);
   }
+}
+
+// H by the inverse row sums of A settles, by the inverse diagonal it does not: p <- max(0, p - H (A p + b)) needs
+// eigenvalues of H A below two, and neighbouring rows move each other nearly as much as themselves.
+TEST(Constrain, diagonalOfTheOperator_isNoStepForTheMultipliers)
+{
+  TinyScene scene(rectilinearMesh(uniform(12, 12), uniform(12, 12)),
+                  {polygonBody(0, {{0, 0}, {4.2, 0}, {7.9, 12}, {0, 12}}),
+                   polygonBody(1, {{4.2, 0}, {12, 0}, {12, 12}, {7.9, 12}})},
+                  2, open_box, Kinematics::Xfem, {2.0, 3.0});
+  BodyTable const none = buildBodyTable({}, 2);
+  ContactRows const rows = findContactRows(scene.mesh, scene.pairs, scene.dof_nodes, scene.regions, scene.conditions,
+                                           none, {}, scene.options, *scene.exchange);
+  Motion const at_rest{scene.velocity_n, none};
+  ContactSystem const system = buildContactSystem(scene.mesh, scene.pairs, rows, scene.dof_nodes, scene.conditions,
+                                                  scene.dof_mass, at_rest, at_rest, {}, scene.dt, RowScale::Sums);
+  DualProblem const problem =
+      assembleDualProblem(scene.mesh, system, rows, Placement::Midpoint, {}, *scene.exchange, {}).rows;
+  ASSERT_GT(problem.size(), 12);
+  std::vector<double> diagonal(problem.b.size());
+  for (int i = 0; i < problem.size(); ++i)
+    for (int e = problem.matrix.offset[i]; e < problem.matrix.offset[i + 1]; ++e)
+      if (problem.matrix.column[e] == i)
+        diagonal[i] = problem.matrix.value[e];
+  for (bool const by_diagonal : {false, true})
+  {
+    std::vector<double> x(problem.b.size(), 1.0), image;
+    double largest = 0.0;
+    for (int k = 0; k < 400; ++k)
+    {
+      problem.matrix.multiply(x, image);
+      double size = 0.0;
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+        image[i] /= by_diagonal ? diagonal[i] : 1.0; // A is scaled by its row sums
+        size = std::max(size, std::fabs(image[i]));
+      }
+      largest = size;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = image[i] / size;
+    }
+    if (by_diagonal)
+      EXPECT_GT(largest, 2.1);
+    else
+      EXPECT_LE(largest, 1.0 + 1e-12);
+  }
+}
+
+// Action is reaction: what an impulse gives one side it takes from the other, whatever it is found by.
+TEST(Constrain, momentumIsKeptToRoundOff_whateverActs)
+{
+  for (ConstraintMethod const method :
+       {ConstraintMethod::Multipliers, ConstraintMethod::Penalty, ConstraintMethod::Nodal, ConstraintMethod::Merged})
+    for (Placement const placement : {Placement::Midpoint, Placement::GaussPoints, Placement::SegmentEnds,
+                                      Placement::VitalVertices, Placement::Mortar})
+    {
+      if (method != ConstraintMethod::Multipliers && placement != Placement::Midpoint)
+        continue;
+      TinyScene scene(rectilinearMesh(uniform(12, 12), uniform(12, 12)),
+                      {polygonBody(0, {{0, 0}, {4.2, 0}, {7.9, 12}, {0, 12}}),
+                       polygonBody(1, {{4.2, 0}, {12, 0}, {12, 12}, {7.9, 12}})},
+                      2, open_box, Kinematics::Xfem, {2.0, 3.0});
+      scene.options.method = method;
+      scene.options.placement = placement;
+      scene.options.impedance = deviceCopy("impedance", std::vector<double>{2.0e3, 3.0e3});
+      scene.setVelocity(
+          [](int material, Vector2 const &x) {
+            return Vector2{(material == 0 ? 60.0 : -40.0) * std::cos(0.4 * x[1]), 10.0 * std::sin(x[0])};
+          });
+      scene.constrain();
+      auto const before = scene.sums(scene.predicted, 0), after = scene.sums(scene.half, 0);
+      auto const whole_before = scene.sums(scene.predicted, -2), whole_after = scene.sums(scene.half, -2);
+      double const exchanged = norm(after.momentum - before.momentum);
+      EXPECT_GT(exchanged, 1.0);
+      EXPECT_LE(norm(whole_after.momentum - whole_before.momentum), 1e-14 * exchanged);
+    }
 }
