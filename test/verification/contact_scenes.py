@@ -97,23 +97,30 @@ def test_discs_exchange_momentum_along_the_line_of_their_centres():
 
 
 def loaded_width(shift):
-    """Loaded length of two discs at their greatest force, less Hertz' width, in cells; `shift` in cells."""
+    """Two discs; `shift` in cells. Loaded length at their greatest force, less Hertz' width, in cells; and mean pressure over Hertz', the
+    mean over the impact by force."""
     h = 0.05
     x, y = shift[0] * h, shift[1] * h
     r = harmos("two_discs/deck.yaml", {"mesh/x": "{from: -1.25, to: 1.25, cells: 50}", "mesh/y": "{from: -1.0, to: 1.0, cells: 40}",
                                        "bodies/left/center": vec(-0.45 + x, 0.1 + y), "bodies/right/center": vec(0.45 + x, -0.1 + y), **QUIET})
     contact = read_columns(r.directory / "contact.csv")
-    force, width = max((hypot(x, y), a) for x, y, a in zip(contact["force_x"], contact["force_y"], contact["area"]))
+    step, hertz = dict(zip(r["cycle"], r["dt"])), lambda force: hertz_width(force, 0.4, 6.75e10, 2.7e10)
+    loads = [(hypot(x, y), a, step[cycle]) for x, y, a, cycle in zip(*(contact[name] for name in ("force_x", "force_y", "area", "cycle"))) if a > 0.0]
+    force, width, _ = max(loads)
     clean(r)
-    return (width - hertz_width(force, 0.4, 6.75e10, 2.7e10)) / h
+    pressure = sum(f / a * f * dt for f, a, dt in loads) / sum(f / hertz(f) * f * dt for f, a, dt in loads)
+    return (width - hertz(force)) / h, pressure
 
 
 # Hertz' width is 2.8 cells there; at one instant four placements gave -2.0, -0.6, -0.3 and -0.1 (with solids' stress along the means of
 # cut cells -0.3, -0.7, -0.6 and -0.4).
 def test_discs_touch_over_the_width_that_hertz_says_to_a_cell():
-    error = sorted(loaded_width((0.21 * i, 0.105 * i)) for i in range(4))
+    error, pressure = (sorted(found) for found in zip(*(loaded_width((0.21 * i, 0.105 * i)) for i in range(4))))
     print("  in cells:", ", ".join(f"{e:.2f}" for e in error))
     check("mean of four placements, in cells", abs(sum(error) / 4), 1.0)
+    # Over the impact 1.05, 1.08, 1.15 and 1.61 of Hertz' mean pressure; with twice the cells 1.05 to 1.19.
+    print("  mean pressure over Hertz':", ", ".join(f"{p:.2f}" for p in pressure))
+    check("median of the mean pressure over Hertz', from one", abs(0.5 * (pressure[1] + pressure[2]) - 1.0), 0.2)
 
 
 PRESSURE, SPEED, TEE_TIME = 1e-3 * 2700.0 * 5000.0**2, 100.0, 2.0e-3
