@@ -112,8 +112,47 @@ HARMOS_LARGE_FUNCTION bool clearOf(Region const &a, Region const &b, double leas
   return false;
 }
 
-/// Bodies and void that the given plan does not leave as they are: where each of them, drawn as if it were alone in the
-/// cell, stays as it is, and none reaches into another, they are apart, and void is what is left.
+/// The region of a body that a plan cuts off the cell in sequence.
+HARMOS_LARGE_FUNCTION Region regionInSequence(CellComponents const &components, RemovalPlan const &plan, int body)
+{
+  Region polygon = components.polygon;
+  double rest = 1.0;
+  for (int i = 0; i + 1 < components.count; ++i)
+  {
+    double const volume = components.volume[plan.component[i]];
+    rest -= volume;
+    Division const division = divide(polygon, plan.normal[i], volume, rest, components.weight);
+    if (plan.component[i] == body)
+      return division.inside;
+    polygon = division.outside;
+  }
+  return polygon;
+}
+
+/// Whether a body is a tip, below a hundredth of the cell, that two lines leave as it is, and the given sequence draws
+/// all along its cell's side: a tenth of a cell and more beyond it. By its centroid such a film, which may lean a
+/// little, is as good; it is the neighbours that tell the tip. And the film touches what meets the side elsewhere.
+HARMOS_LARGE_FUNCTION bool savesTip(CellComponents const &components, RemovalPlan const &plan, RemovalPlan const &given,
+                                    Region const &region, int body)
+{
+  constexpr double beyond = 0.1, largest = 0.01; // [cells]; of the cell
+  Vector2 const second = plan.normal[2 * body + 1];
+  if (!(components.volume[body] < largest) || (second[0] == 0.0 && second[1] == 0.0))
+    return false;
+  Region const before = regionInSequence(components, given, body);
+  double farthest = 0.0;
+  for (int i = 0; i < before.size; ++i)
+  {
+    double nearest = 1e300;
+    for (int j = 0; j < region.size; ++j)
+      nearest = Math::min(nearest, norm(before[i] - region[j]));
+    farthest = Math::max(farthest, nearest);
+  }
+  return farthest > beyond;
+}
+
+/// Bodies and void that the given plan does not leave as they are, in sequence: where each of them, drawn as if it were
+/// alone in the cell, stays as it is, and none reaches into another, they are apart, and void is what is left.
 ///
 /// Corners of two bodies that pass each other at a distance share cells with void both between them and beyond. All
 /// other plans have bodies meet somewhere where void is not all between them; so they touched, and felt each other
@@ -138,13 +177,14 @@ HARMOS_LARGE_FUNCTION RemovalPlan apartPlan(ReconstructionField const &field, Ce
   plan.parted = plan.corner = plan.filmed = false;
   plan.error = 0.0;
   Region region[RemovalPlan::most_apart];
-  bool bent = false;
+  bool bent = false, saves = false;
   for (int k = 0; k < bodies; ++k)
   {
     DrawnAlone const drawn = drawAlone(field, components, k, slivers, plan, region[k]);
     if (drawn == DrawnAlone::Missed)
       return given;
     bent = bent || drawn == DrawnAlone::Bent;
+    saves = saves || savesTip(components, plan, given, region[k], k);
     for (int j = 0; j < k; ++j)
     {
       if (bent && !clearOf(region[j], region[k], clear))
@@ -155,7 +195,7 @@ HARMOS_LARGE_FUNCTION RemovalPlan apartPlan(ReconstructionField const &field, Ce
         return given;
     }
   }
-  return plan.error <= much_better * given.error ? plan : given;
+  return saves || plan.error <= much_better * given.error ? plan : given;
 }
 
 } // namespace Harmos

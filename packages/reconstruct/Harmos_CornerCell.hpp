@@ -139,7 +139,16 @@ HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fiel
     int best = 0;
     for (int i = 1; i < starts; ++i)
       best = start[i].error < start[best].error ? i : best;
-    cell = bestCornerCell(problem, start[best], hopeful * one_line.error);
+    cell = start[best];
+    if (volume < film_volume)
+    {
+      // The neighbours outweigh the centroid of a tip by far, and would end the search beside it.
+      problem.scale *= centroid_first;
+      cell = bestCornerCell(problem, problem.at(cell.x), 1e300);
+      problem.scale /= centroid_first;
+      cell = problem.at(cell.x);
+    }
+    cell = bestCornerCell(problem, cell, hopeful * one_line.error);
     start[best].error = 1e300;
     nearest = cell.error < nearest.error ? cell : nearest;
   }

@@ -176,6 +176,18 @@ def test_what_is_round_and_has_moved_feels_what_it_touches():
             clean(r)
 
 
+# A corner's tip that just comes into the disc's cell was a film along all of the cell's side: one of these eight felt it for ten cycles.
+def test_what_is_round_and_has_moved_feels_no_corner_that_it_passes():
+    random = Random(7)
+    felt = []
+    for _ in range(8):
+        r = round_pair("corner", random, 0.05, False, travel=5.0)
+        felt.append(len(read_columns(r.directory / "contact.csv")["time"]))
+        clean(r)
+    print(f"  a disc past a corner, 0.05 cells, five cells along: rows loaded {felt}")
+    assert not any(felt), felt
+
+
 def test_a_bar_strikes_the_same_body_again_after_it_has_parted():
     # Between two fixed blocks, frictionless: right, left, right again. In between no force at all.
     left, right, speed = 0.1, 0.45, 50.0

@@ -288,6 +288,68 @@ TEST(ReconstructCorners, bentWedgeAboveItsTip_isNotCutOff)
   EXPECT_LT(worst, 3e-3);
 }
 
+// A corner that has just come into the cell where a face lies: some 1e-6 to 1e-4 of the cell. The neighbours outweigh
+// its centroid by far, and led the search to other corners beside it; then the tip was drawn as a film along all of the
+// cell's side, up to the face, which felt it (4 of these 158).
+TEST(ReconstructCorners, tipsThatJustComeIntoTheCellOfAFace_areExact)
+{
+  Mesh const mesh = makeMesh(7, 7, 1.0);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int looked_at = 0, exact = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    Vector2 const tip{3.2 + 0.6 * unit(random), 4.0 - 0.008 * unit(random)};
+    double const half_angle = 25.0 + 30.0 * unit(random), lean = (80.0 - half_angle) * (2.0 * unit(random) - 1.0);
+    double const ahead = 270.0 + lean, tilt = (unit(random) - 0.5) * (80.0 - half_angle),
+                 gap = 0.02 + 0.25 * unit(random);
+    Vector2 const normal = halfPlane(ahead + tilt, tip).normal;
+    std::vector<Body> const all{{halfPlane(ahead - 90.0 + half_angle, tip), halfPlane(ahead + 90.0 - half_angle, tip)},
+                                {halfPlane(ahead + tilt + 180.0, tip + gap * normal)}};
+    Scene const scene = paint(mesh, bodies(all));
+    int const cell = 3 * 7 + 3, pair = onHost(scene.pairs.offset)(cell);
+    double const part = onHost(scene.state.record)(pair, VolumeFraction);
+    if (onHost(scene.pairs.offset)(cell + 1) != pair + 2 || part < 2.0 * sliver || part > 1e-4)
+      continue;
+    ++looked_at;
+    auto const by_pair = misplacedByCell(scene, reconstructed(scene, sliver), all).at(cell);
+    exact += *std::max_element(by_pair.begin(), by_pair.end()) < 1e-8 ? 1 : 0;
+  }
+  std::printf("%d of %d tips exact\n", exact, looked_at);
+  EXPECT_GT(looked_at, 60);
+  EXPECT_EQ(exact, looked_at);
+}
+
+// The same above a round body, whose chord misses more of a moment than the whole tip weighs: no film along the side.
+TEST(ReconstructCorners, tipsThatJustComeIntoTheCellOfARoundBody_areNoFilms)
+{
+  Mesh const mesh = makeMesh(7, 7, 1.0);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int looked_at = 0;
+  double worst = 0.0;
+  for (int i = 0; i < 100; ++i)
+  {
+    Vector2 const tip{3.3 + 0.4 * unit(random), 4.0 - 0.01 - 0.06 * unit(random)};
+    double const lean = 30.0 * (2.0 * unit(random) - 1.0), ahead = 270.0 + lean, radius = 5.0;
+    Vector2 const down = halfPlane(ahead, tip).normal, centre = tip + (radius + 0.1 + 0.1 * unit(random)) * down;
+    Body round;
+    for (double degrees = 60.0; degrees < 121.0; degrees += 2.0)
+      round.push_back(halfPlane(degrees + lean, centre - radius * halfPlane(degrees + lean + 180.0, tip).normal));
+    std::vector<Body> const all{{halfPlane(ahead - 45.0, tip), halfPlane(ahead + 45.0, tip)}, round};
+    Scene const scene = paint(mesh, bodies(all));
+    int const cell = 3 * 7 + 3, pair = onHost(scene.pairs.offset)(cell);
+    double const part = onHost(scene.state.record)(pair, VolumeFraction);
+    if (onHost(scene.pairs.offset)(cell + 1) != pair + 2)
+      continue;
+    ++looked_at;
+    worst = std::max(worst, misplacedByCell(scene, reconstructed(scene, sliver), all).at(cell)[0] / part);
+  }
+  std::printf("%d tips, at most %.1e of one misplaced\n", looked_at, worst);
+  EXPECT_GT(looked_at, 60);
+  EXPECT_LT(worst, 0.05);
+}
+
 // A corner that is pressed on a face, both bent since they touched: what a square that strikes a block fills of nine
 // cells. A straight line leaves 1.8e-20 of the face's first moment (squared), where 1e-20 was to be exact and the plan
 // without corner leaves 1.4e-6.
