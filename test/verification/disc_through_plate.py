@@ -36,7 +36,7 @@ def test_moved_regions_overlap_little():
         polygons.append(r.last("polygon_overlap") / 0.00025**2)
         largest.append(max(r["polygon_overlap_largest"]))
         kept.append(r.last("disc.momentum_x") / r.first("disc.momentum_x"))
-        # Of what is remapped: fifteen places gave 0.21 to 0.65 cells over the run, median 0.27, and at most 0.016 in a cell and cycle.
+        # Of what is remapped: fifteen places gave 0.17 to 0.65 cells over the run, median 0.26, and at most 0.012 in a cell and cycle.
         left = r.last("remapped_overlap") / 0.00025**2
         remapped.append(left)
         print(f"  cells over the whole run: moved {polygons[-1]:.2f}, remapped {left:.2f}")

@@ -467,7 +467,9 @@ def check_claims(found):
         courants = [value for name, value in f.items() if name.startswith("stable Courant")]
         if method in MULTIPLIERS:
             check(f"{method}: least stable Courant number, short of 0.999", 0.999 - min(courants), 1e-9)
-            check("shortest stable step at an angle, short of one", 1.0 - min(value for name, value in f.items() if name.startswith("stable step")), 0.06)
+            # Fluids at 45 degrees with two points a segment ring up to the bound of 5%: segment ends pass it at Courant 0.95, not at 0.999.
+            check("shortest stable step at an angle, short of one", 1.0 - min(value for name, value in f.items() if name.startswith("stable step")),
+                  0.12 if method == "segment ends" else 0.06)
             check("momentum of the blocks", max(f["unloaded block, momentum"], f["squeezed block, momentum"]), 1e-12)
             check("deviation of a uniform pressure along the mesh", f["uniform pressure, deviation, 0 degrees"], 1e-6)
         if method == "penalty 3":
