@@ -81,7 +81,7 @@ bool solveOn(Mesh const &mesh, ContactSystem const &system, ContactRows const &r
 {
   int const before = solution.iterations;
   options.max_iterations -= before;
-  if (options.max_iterations < 1)
+  if (before > 0 && options.max_iterations < 1)
   {
     solution.converged = false;
     return false;

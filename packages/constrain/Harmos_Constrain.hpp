@@ -111,7 +111,7 @@ struct ConstraintReport
 /// though it was not about to touch, since what others' impulses move strikes there: the impulses are found anew with
 /// it. Bodies in lasting contact, s = 0 without a gap, feel no difference.
 ///
-/// Rows of whose velocity less than a thousandth is left to move ask for nothing (ContactSystem); bonded rows give way
+/// Rows of whose velocity along n less than a thousandth is left to move ask for nothing (ContactSystem); bonded rows give way
 /// by bonded_compliance, rows that rub by rubbing_compliance.
 ///
 /// \param dof_mass   num_dof_nodes [kg/m]
@@ -154,7 +154,8 @@ std::vector<Bond> findBonds(Mesh const &mesh, CellMaterialPairs const &pairs, No
                             std::vector<RigidBody> const &bodies, ConstraintOptions const &options,
                             Exchange const &exchange);
 
-/// Load the bonds (Harmos::carry) and break those that carry more than their materials' bond bears (Harmos::breaks).
+/// Load the bonds (Harmos::carry) and break those that carry more than their materials' bond bears (Harmos::breaks), or
+/// have snapped (BondLoad::snapped).
 /// \return How many broke.
 int breakBonds(std::vector<BondLoad> const &load, ConstraintOptions const &options, double kick,
                std::vector<Bond> &bonds);

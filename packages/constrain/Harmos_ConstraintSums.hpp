@@ -32,6 +32,7 @@ void sumBondLoads(ContactSystem const &system, ContactRows const &rows, View<dou
 
 /// Rigid bodies bear impulses: a bond between two of them does not hold the one that it cannot bear for a cycle, but
 /// snaps (BondLoad::snapped), and its rows slide from this solve on.
+/// \param rows Those of bonds that snap are untied, own ones alone: rows between rigid bodies have no others.
 /// \param kick Time over which impulses act [s]
 /// \return Whether one did: the impulses are to be found anew.
 bool snapRigidBonds(ContactRows const &rows, std::vector<RigidBody> const &bodies, std::vector<Bond> const &bonds,

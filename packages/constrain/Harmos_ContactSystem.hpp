@@ -71,7 +71,7 @@ enum class RowScale
 /// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
 /// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*) + C p, b = G v* + max(gap, 0)/dt
 /// (tied: no gap), C the compliances of the rows; where node conditions, driven bodies and walls leave less than a
-/// thousandth of the row's velocity to move, b is at least zero (tied, and across n: zero). Dof nodes that rows touch
+/// thousandth of the row's velocity along n to move, b is at least zero there (tied: zero, across n too). Dof nodes that rows touch
 /// are numbered compactly; rows_of gathers in key order.
 struct ContactSystem
 {

@@ -55,7 +55,7 @@ struct CornerContacts
 /// two cells), what touches between them is at most 0.5 cells long: of a deformable corner the tip that is pressed
 /// flat, of a rigid one the sides of the dent that it makes, and pieces too short for an edge beside these.
 ///
-/// \param before v^{n-1/2} \param dt Of the step [s]; 0: no motion is known.
+/// \param bonded Where bodies are bonded. \param before v^{n-1/2} \param dt Of the step [s]; 0: no motion is known.
 /// \param hit Of the segments' rays: a face whose ray meets a third body bears no corner.
 CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pairs, InterfaceSegments const &segments,
                                   View<RayHit *> const &hit, SegmentBins const &bins, BodyTable const &bodies,

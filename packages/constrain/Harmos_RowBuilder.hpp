@@ -195,7 +195,7 @@ struct RowBuilder
 
   /// What a segment, or a part of one, meets along its ray; where it is one of few short pieces that lie on each other,
   /// at the rim of a contact or of bodies about to touch, as far away as both sides' arcs are. The free sides of a
-  /// body-fitted mesh are no chords.
+  /// body-fitted mesh are no chords, and what is bonded stays so; but bonds are found (dt = 0) where arcs touch.
   KOKKOS_INLINE_FUNCTION RayHit alongArcs(InterfaceSegment const &a, RayHit const &to, Vector2 const &normal) const
   {
     constexpr double longest = 0.5, few = 1.5; // [cells]
@@ -203,7 +203,8 @@ struct RowBuilder
     double const h = a.cell_size;
     bool const fitted = a.face >= 0 && mesh.face_neighbour(a.cell, a.face) < 0;
     if (to.gap > touching_gap * h || a.parts * a.length > longest * h || fitted || b.material < 0 ||
-        bearing.isPressed(a) || bearing.isPressed(b) || touchingLength(facing, a, b.material) > few)
+        bearing.isPressed(a) || bearing.isPressed(b) || (dt > 0.0 && areBonded(a, b)) ||
+        touchingLength(facing, a, b.material) > few)
       return to;
     return {to.segment, Math::max(to.gap, h * curvedGap(bins, a, b.material, normal)), to.cosine};
   }
@@ -470,6 +471,8 @@ struct RowBuilder
     setInteraction(b, row);
     if (rows.corner >= 0)
     {
+      row.tied = 0; // where its face is bonded a corner has no row
+      row.bond = -1;
       CornerContact const &contact = corners.contact(rows.corner);
       fillCorner(contact, i, a.point, row.body_a, row.dof_a, row.weight_a);
       Vector2 const corner = contact.foot + contact.gap * contact.normal;

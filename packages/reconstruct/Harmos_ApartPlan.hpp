@@ -112,21 +112,20 @@ HARMOS_LARGE_FUNCTION bool clearOf(Region const &a, Region const &b, double leas
   return false;
 }
 
-/// The region of a body that a plan cuts off the cell in sequence.
-HARMOS_LARGE_FUNCTION Region regionInSequence(CellComponents const &components, RemovalPlan const &plan, int body)
+/// Distance of a point from a convex region; 0 inside.
+HARMOS_LARGE_FUNCTION double distanceFrom(Region const &region, Vector2 const &point)
 {
-  Region polygon = components.polygon;
-  double rest = 1.0;
-  for (int i = 0; i + 1 < components.count; ++i)
+  bool inside = true;
+  double nearest = 1e300;
+  for (int i = 0; i < region.size; ++i)
   {
-    double const volume = components.volume[plan.component[i]];
-    rest -= volume;
-    Division const division = divide(polygon, plan.normal[i], volume, rest, components.weight);
-    if (plan.component[i] == body)
-      return division.inside;
-    polygon = division.outside;
+    Vector2 const &a = region[i], along = region[region.next(i)] - a;
+    inside = inside && cross(along, point - a) >= 0.0;
+    double const squared = dot(along, along);
+    double const at = squared > 0.0 ? Math::clamp(dot(point - a, along) / squared, 0.0, 1.0) : 0.0;
+    nearest = Math::min(nearest, norm(point - a - at * along));
   }
-  return polygon;
+  return inside ? 0.0 : nearest;
 }
 
 /// Whether a body is a tip, below a hundredth of the cell, that two lines leave as it is, and the given sequence draws
@@ -139,15 +138,13 @@ HARMOS_LARGE_FUNCTION bool savesTip(CellComponents const &components, RemovalPla
   Vector2 const second = plan.normal[2 * body + 1];
   if (!(components.volume[body] < largest) || (second[0] == 0.0 && second[1] == 0.0))
     return false;
-  Region const before = regionInSequence(components, given, body);
   double farthest = 0.0;
-  for (int i = 0; i < before.size; ++i)
-  {
-    double nearest = 1e300;
-    for (int j = 0; j < region.size; ++j)
-      nearest = Math::min(nearest, norm(before[i] - region[j]));
-    farthest = Math::max(farthest, nearest);
-  }
+  forEachPart(components, given,
+              [&](Region const &part, int k, Vector2 const &)
+              {
+                for (int i = 0; k == body && i < part.size; ++i)
+                  farthest = Math::max(farthest, distanceFrom(region, part[i]));
+              });
   return farthest > beyond;
 }
 
