@@ -15,7 +15,8 @@ struct BondedPlaces
   View<PairInteraction **> interaction;
   BondBins bonds;
 
-  /// Number of the nearest bond of two materials within reach of a point; -1: none.
+  /// Number of the nearest bond of two materials within bond_reach cells of a point; -1: none.
+  /// \param cell_size At the point [length].
   KOKKOS_INLINE_FUNCTION int nearest(Vector2 const &point, double cell_size, int a, int b) const
   {
     return bonds.nearest(point, bond_reach * cell_size, Math::min(a, b), Math::max(a, b));

@@ -111,8 +111,8 @@ struct ConstraintReport
 /// though it was not about to touch, since what others' impulses move strikes there: the impulses are found anew with
 /// it. Bodies in lasting contact, s = 0 without a gap, feel no difference.
 ///
-/// Rows of whose velocity along n less than a thousandth is left to move ask for nothing (ContactSystem); bonded rows give way
-/// by bonded_compliance, rows that rub by rubbing_compliance.
+/// Rows of whose velocity along n less than a thousandth is left to move ask for nothing (ContactSystem); bonded rows
+/// give way by bonded_compliance, rows that rub by rubbing_compliance.
 ///
 /// \param dof_mass   num_dof_nodes [kg/m]
 /// \param velocity_n v^{n-1/2}, num_dof_nodes [m/s]: for the work of the impulses
