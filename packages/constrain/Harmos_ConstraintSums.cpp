@@ -22,6 +22,16 @@ struct RowWorker
   View<double *[2]> impulse, velocity_n, half;
   BodyTable mean;
 
+  /// Mean velocity of a contact dof over the step. What a node condition holds moves as it does at the step's end: a
+  /// body may begin with another velocity beside a wall, and an impulse that the wall takes must do no work with that.
+  KOKKOS_INLINE_FUNCTION Vector2 meanVelocity(int i) const
+  {
+    int const dof = s.dof_node(i);
+    Vector2 const after{half(dof, 0), half(dof, 1)};
+    Vector2 const change = Vector2{velocity_n(dof, 0), velocity_n(dof, 1)} - after;
+    return after + 0.5 * s.condition(i).project(change);
+  }
+
   KOKKOS_INLINE_FUNCTION RowWork operator()(int i) const
   {
     ContactRow const &r = row(i);
@@ -36,10 +46,9 @@ struct RowWorker
         v = mean.body(body).velocityAt(side == 0 ? r.point : r.point + r.gap * r.normal);
       for (int k = 0; k < 4; ++k)
       {
-        int const dof = side == 0 ? r.dof_a[k] : r.dof_b[k];
-        double const w = side == 0 ? r.weight_a[k] : r.weight_b[k];
+        int const dof = s.dof(i, 4 * side + k);
         if (dof >= 0)
-          v += 0.5 * w * Vector2{velocity_n(dof, 0) + half(dof, 0), velocity_n(dof, 1) + half(dof, 1)};
+          v += (side == 0 ? r.weight_a[k] : r.weight_b[k]) * meanVelocity(dof);
       }
       double const power = sign * dot(work.impulse, v);
       work.power += power;
@@ -68,7 +77,7 @@ View<RemovedImpulse *> removedImpulses(ContactSystem const &s, RowWorker const &
                                        NodeMaterialPairs const &dof_nodes, WorkArrays const &arrays)
 {
   View<RemovedImpulse *> const removed = arrays.unset<RemovedImpulse *>("Harmos::constrain::removed", s.num_dofs);
-  View<double *[2]> const p = worker.impulse, velocity_n = worker.velocity_n, half = worker.half;
+  View<double *[2]> const p = worker.impulse;
   launchFor(
       "Harmos::constrain::removedImpulses", s.num_dofs, KOKKOS_LAMBDA(int i) {
         removed(i) = {{0.0, 0.0}, 0.0};
@@ -83,8 +92,7 @@ View<RemovedImpulse *> removedImpulses(ContactSystem const &s, RowWorker const &
           f += s.weight(row, s.rows_of.item(e) % 8) * (p(row, 0) * n + p(row, 1) * perpendicular(n));
         }
         f -= s.condition(i).project(f);
-        Vector2 const mean{0.5 * (velocity_n(dof, 0) + half(dof, 0)), 0.5 * (velocity_n(dof, 1) + half(dof, 1))};
-        removed(i) = {f, dot(f, mean)};
+        removed(i) = {f, dot(f, worker.meanVelocity(i))};
       });
   return removed;
 }

@@ -80,7 +80,7 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
   constexpr double least_length = 1.2, most_miss = 5e-3, miss_over_stand_out = 0.375; // [cells]
   constexpr double most_turn = 0.02, turn_over_curvature = 0.3;
   constexpr int least_cells = 3;
-  ParabolaFit fit;
+  double alpha = 0.0, beta = 0.0, gamma = 0.0; // of the fit
   double length = 0.0, miss = 0.0, turn = 0.0, turning = 0.0;
   int taken = 0;
   auto const forEachCell = [&](auto const &visit)
@@ -89,7 +89,7 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
     {
       CellFacets const &c = side.of_cell[k];
       double const t = c.t / c.length, y = c.y / c.length, spread = c.tt / c.length - t * t;
-      double const near = 1.0 - t * t / (SideArc::reach * SideArc::reach), cube = fit.gamma * fit.gamma * fit.gamma;
+      double const near = 1.0 - t * t / (SideArc::reach * SideArc::reach), cube = gamma * gamma * gamma;
       if (near > 0.0 && spread > 0.0)
         visit(c.length * near * near, t, spread, y - 0.125 * cube * t * t * (t * t + 6.0 * spread),
               (c.ty / c.length - t * y) / spread - 0.5 * cube * t * (t * t + 3.0 * spread));
@@ -98,38 +98,44 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
   for (int pass = 0; pass < 2; ++pass)
   {
     FitMoments m = {};
+    SideMoments &of = m.side[0];
     taken = 0;
     forEachCell(
         [&](double w, double t, double spread, double y, double slope)
         {
-          double const q = 0.5 * (t * t + spread), u = 0.1 * w * spread, of[4] = {1.0, t, q, y};
-          for (int i = 0; i < 4; ++i)
-            m.of_side[0][i] += w * of[i];
-          m.tt += w * t * t + u;
-          m.tq += w * t * q + u * t;
-          m.qq += w * q * q + u * t * t;
-          m.ty += w * t * y + u * slope;
-          m.qy += w * q * y + u * t * slope;
+          double const q = 0.5 * (t * t + spread), u = 0.1 * spread;
+          of.w += w;
+          of.t += w * t;
+          of.q += w * q;
+          of.y += w * y;
+          of.tt += w * (t * t + u);
+          of.tq += w * (t * q + u * t);
+          of.qq += w * (q * q + u * t * t);
+          of.ty += w * (t * y + u * slope);
+          of.qy += w * (q * y + u * t * slope);
           ++taken;
         });
-    length = m.of_side[0][0];
+    length = of.w;
     if (side.overflown || taken < least_cells || length < least_length)
       return {0.0, 0.0, false, false};
-    fit = fitParabola(m, 0.0);
+    ParabolaFit const fit = fitParabola(m, 0.0);
+    alpha = fit.alpha[0];
+    beta = fit.beta;
+    gamma = fit.gamma[0];
   }
   forEachCell(
       [&](double w, double t, double spread, double y, double slope)
       {
-        double const r = y - fit.alpha[0] - fit.beta * t - 0.5 * fit.gamma * (t * t + spread);
-        double const off = slope - fit.beta - fit.gamma * t;
+        double const r = y - alpha - beta * t - 0.5 * gamma * (t * t + spread);
+        double const off = slope - beta - gamma * t;
         miss += w * r * r;
         turn += w * spread * off * off;
         turning += w * spread;
       });
-  double const most_off = Math::max(most_turn, turn_over_curvature * Math::fabs(fit.gamma));
+  double const most_off = Math::max(most_turn, turn_over_curvature * Math::fabs(gamma));
   bool const even = turn <= most_off * most_off * turning;
-  double const most = even ? Math::max(most_miss, miss_over_stand_out * standOut(Math::fabs(fit.gamma))) : most_miss;
-  return {fit.alpha[0], fit.gamma, miss <= most * most * length, even};
+  double const most = even ? Math::max(most_miss, miss_over_stand_out * standOut(Math::fabs(gamma))) : most_miss;
+  return {alpha, gamma, miss <= most * most * length, even};
 }
 
 /// \brief Void between two smooth sides that curve away from each other, at a point where their facets meet. [cells]

@@ -116,16 +116,16 @@ KOKKOS_INLINE_FUNCTION double touchingLength(FacingSegments const &facing, Inter
 
 /// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
 /// `target` is what the ray of s (a segment or a part of one) meets, a segment of another material (no wall).
-/// \param keeps_faces As of fitNormal.
+/// \param rough As of fitNormal.
 KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, FacingSegments const &facing,
-                                             double shortest, InterfaceSegment const &s, int target, bool keeps_faces)
+                                             double shortest, InterfaceSegment const &s, int target, bool rough)
 {
   FitSamples samples;
   Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
   facing.bins.forEachRun(s.point - reach, s.point + reach,
                          SampleGatherer{facing, s, static_cast<double>(s.material),
                                         static_cast<double>(segment(target).material), shortest, samples});
-  return fitNormal(samples, normalised(s.normal - segment(target).normal), keeps_faces);
+  return fitNormal(samples, normalised(s.normal - segment(target).normal), rough);
 }
 
 } // namespace Harmos

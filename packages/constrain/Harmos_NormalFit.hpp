@@ -117,12 +117,13 @@ KOKKOS_INLINE_FUNCTION void weighByGaps(FitSamples &s)
   }
 }
 
-/// One pass of the fit: a weighted least-squares parabola y = alpha_s + beta t + gamma t^2 / 2 in the frame (t, n).
+/// One pass of the fit: weighted least-squares parabolas y = alpha_s + beta t + gamma_s t^2 / 2 of the two sides s, in
+/// the frame (t, n).
 struct ParabolaFit
 {
   double alpha[2] = {0.0, 0.0};
   double beta = 0.0;
-  double gamma = 0.0;
+  double gamma[2] = {0.0, 0.0};
 };
 
 constexpr double fit_least_cosine = 0.7; // segments (and rows) that are tilted more against the normal are left out
@@ -135,21 +136,27 @@ struct FitFrame
   double omega[max_fit_samples]; // robust factor of the weight
 };
 
-/// Moments of the samples, what the normal equations are made of: w, w t, w q, w y of side a, of side b, and of both
-/// t t, t q, q q, t y, q y; q = (t^2 + spread) / 2.
+/// Moments of one side's samples, what the normal equations are made of; q = (t^2 + spread) / 2.
+struct SideMoments
+{
+  double w, t, q, y, tt, tq, qq, ty, qy;
+};
+
 struct FitMoments
 {
-  double of_side[2][4];
-  double tt, tq, qq, ty, qy;
+  SideMoments side[2]; // of a, of b
 };
 
 /// Place the samples in the frame of n, and add up their moments.
 /// \param weighed Whether the robust factors are known; else they are one.
 KOKKOS_INLINE_FUNCTION FitMoments fitMoments(FitSamples const &s, Vector2 const &n, bool weighed, FitFrame &frame)
 {
+  constexpr int moments = 9, room = 24; // of both sides, in whole packs
   Pack const nx = n[0], ny = n[1];
-  Pack w_a = 0.0, wt_a = 0.0, wq_a = 0.0, wy_a = 0.0, w_b = 0.0, wt_b = 0.0, wq_b = 0.0, wy_b = 0.0;
-  Pack tt = 0.0, tq = 0.0, qq = 0.0, ty = 0.0, qy = 0.0;
+  Pack sum[room];
+  HARMOS_UNROLL
+  for (int k = 0; k < room; ++k)
+    sum[k] = 0.0;
   for (int j = 0; j < s.count; j += pack_width)
   {
     Pack const x = loadPack(s.x + j), z = loadPack(s.y + j);
@@ -165,60 +172,55 @@ KOKKOS_INLINE_FUNCTION FitMoments fitMoments(FitSamples const &s, Vector2 const 
     storePack(frame.spread + j, spread);
     storePack(frame.slope + j, slope);
     storePack(frame.taken + j, taken);
-    Pack a = loadPack(s.weight + j) * taken;
+    Pack w = loadPack(s.weight + j) * taken;
     if (weighed)
-      a = a * loadPack(frame.omega + j);
-    Pack const of_b = a * loadPack(s.of_b + j), of_a = a - of_b;
-    Pack const q = Pack(0.5) * (t * t + spread);
-    w_a += of_a;
-    wt_a += of_a * t;
-    wq_a += of_a * q;
-    wy_a += of_a * y;
-    w_b += of_b;
-    wt_b += of_b * t;
-    wq_b += of_b * q;
-    wy_b += of_b * y;
-    Pack const at = a * t, aq = a * q, u = Pack(0.1) * a * spread, ut = u * t;
-    tt += at * t + u;
-    tq += at * q + ut;
-    qq += aq * q + ut * t;
-    ty += at * y + u * slope;
-    qy += aq * y + ut * slope;
+      w = w * loadPack(frame.omega + j);
+    Pack const q = Pack(0.5) * (t * t + spread), u = Pack(0.1) * spread, ut = u * t;
+    Pack const term[moments] = {Pack(1.0),         t, q, y, t * t + u, t * q + ut, q * q + ut * t, t * y + u * slope,
+                                q * y + ut * slope};
+    Pack const of_b = w * loadPack(s.of_b + j), of_a = w - of_b;
+    HARMOS_UNROLL
+    for (int k = 0; k < moments; ++k)
+    {
+      sum[k] += of_a * term[k];
+      sum[moments + k] += of_b * term[k];
+    }
   }
-  Pack sum[16] = {w_a, wt_a, wq_a, wy_a, w_b, wt_b, wq_b, wy_b, tt, tq, qq, ty, qy, 0.0, 0.0, 0.0};
-  double m[16];
+  double m[room];
   laneSums(sum, m);
-  return {{{m[0], m[1], m[2], m[3]}, {m[4], m[5], m[6], m[7]}}, m[8], m[9], m[10], m[11], m[12]};
+  return {{{m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]},
+           {m[9], m[10], m[11], m[12], m[13], m[14], m[15], m[16], m[17]}}};
 }
 
-/// Minimise sum w omega (r^2 + 0.1 spread s^2) + W kappa gamma^2 with
-/// r = y - alpha_s - beta t - gamma (t^2 + spread) / 2, s = slope - beta - gamma t, W = sum w omega.
+/// Minimise sum w omega (r^2 + 0.1 spread d^2) + kappa sum_s W_s gamma_s^2 with
+/// r = y - alpha_s - beta t - gamma_s (t^2 + spread) / 2, d = slope - beta - gamma_s t, W_s = sum w omega of side s.
 ///
-/// The offsets are eliminated first; unknowns without a pivot are zero.
+/// Offsets and curvatures of the sides are eliminated first; unknowns without a pivot are zero.
 KOKKOS_INLINE_FUNCTION ParabolaFit fitParabola(FitMoments const &m, double kappa)
 {
   constexpr double no_pivot = 1e-300;
-  double inverse[2];
-  double bb = m.tt, bg = m.tq, gg = m.qq + (m.of_side[0][0] + m.of_side[1][0]) * kappa, b = m.ty, g = m.qy;
+  double of_alpha[2], of_gamma[2], tq[2], qy[2], bb = 0.0, b = 0.0;
   for (int side = 0; side < 2; ++side)
   {
-    double const(&of)[4] = m.of_side[side];
-    inverse[side] = of[0] > no_pivot ? 1.0 / of[0] : 0.0;
-    double const t = of[1] * inverse[side], q = of[2] * inverse[side];
-    bb -= t * of[1];
-    bg -= t * of[2];
-    gg -= q * of[2];
-    b -= t * of[3];
-    g -= q * of[3];
+    SideMoments const &s = m.side[side];
+    of_alpha[side] = s.w > no_pivot ? 1.0 / s.w : 0.0;
+    double const t = s.t * of_alpha[side], q = s.q * of_alpha[side];
+    double const qq = s.qq - q * s.q + kappa * s.w;
+    tq[side] = s.tq - t * s.q;
+    qy[side] = s.qy - q * s.y;
+    of_gamma[side] = qq > no_pivot ? 1.0 / qq : 0.0;
+    double const l = tq[side] * of_gamma[side];
+    bb += s.tt - t * s.t - l * tq[side];
+    b += s.ty - t * s.y - l * qy[side];
   }
-  double const of_slope = bb > no_pivot ? 1.0 / bb : 0.0, l = bg * of_slope;
-  gg -= l * bg;
   ParabolaFit fit;
-  fit.gamma = gg > no_pivot ? (g - l * b) / gg : 0.0;
-  fit.beta = (b - bg * fit.gamma) * of_slope;
+  fit.beta = bb > no_pivot ? b / bb : 0.0;
   for (int side = 0; side < 2; ++side)
-    fit.alpha[side] =
-        (m.of_side[side][3] - m.of_side[side][1] * fit.beta - m.of_side[side][2] * fit.gamma) * inverse[side];
+  {
+    SideMoments const &s = m.side[side];
+    fit.gamma[side] = (qy[side] - tq[side] * fit.beta) * of_gamma[side];
+    fit.alpha[side] = (s.y - s.t * fit.beta - s.q * fit.gamma[side]) * of_alpha[side];
+  }
   return fit;
 }
 
@@ -226,13 +228,16 @@ KOKKOS_INLINE_FUNCTION ParabolaFit fitParabola(FitMoments const &m, double kappa
 KOKKOS_INLINE_FUNCTION double reweigh(FitSamples const &s, ParabolaFit const &fit, FitFrame &frame)
 {
   Pack const largest = 0.25; // of a squared misfit
-  Pack const beta = fit.beta, gamma = fit.gamma, one = 1.0, alpha = fit.alpha[0], more = fit.alpha[1] - fit.alpha[0];
+  Pack const beta = fit.beta, one = 1.0;
+  Pack const alpha = fit.alpha[0], more_alpha = fit.alpha[1] - fit.alpha[0];
+  Pack const gamma_a = fit.gamma[0], more_gamma = fit.gamma[1] - fit.gamma[0];
   Pack misfit = 0.0;
   for (int j = 0; j < s.count; j += pack_width)
   {
-    Pack const t = loadPack(frame.t + j), spread = loadPack(frame.spread + j);
+    Pack const t = loadPack(frame.t + j), spread = loadPack(frame.spread + j), of_b = loadPack(s.of_b + j);
+    Pack const gamma = gamma_a + of_b * more_gamma;
     Pack const r =
-        loadPack(frame.y + j) - (alpha + loadPack(s.of_b + j) * more) - beta * t - Pack(0.5) * gamma * (t * t + spread);
+        loadPack(frame.y + j) - (alpha + of_b * more_alpha) - beta * t - Pack(0.5) * gamma * (t * t + spread);
     Pack const d = loadPack(frame.slope + j) - beta - gamma * t;
     Pack const e2 = select(Pack(0.0) < loadPack(frame.taken + j), r * r + spread * d * d, largest);
     storePack(frame.omega + j, one / (one + e2 * Pack(1.0 / (0.025 * 0.025))));
@@ -248,15 +253,31 @@ struct NormalGuess
   double misfit; // mean squared, of all samples [cells^2]
 };
 
+/// How a fit holds curvatures back: kappa of the first pass, and of the others per_misfit times the mean squared
+/// misfit, within least .. 1.
+struct CurvatureRidge
+{
+  double first, least, per_misfit;
+
+  KOKKOS_INLINE_FUNCTION double next(double misfit) const { return Math::clamp(per_misfit * misfit, least, 1.0); }
+
+  /// Next to none: enough for few samples, which tell no curvature. More flattens arcs, and where samples lie more to
+  /// one side than to the other the slope turns with what the curvature lacks.
+  static KOKKOS_INLINE_FUNCTION CurvatureRidge light() { return {1e-3, 1e-3, 0.0}; }
+
+  /// The more the samples scatter the flatter: the thin outlines of fluids, and the few edges around a corner.
+  static KOKKOS_INLINE_FUNCTION CurvatureRidge ofScatter() { return {0.1, 9e-4, 100.0}; }
+};
+
 /// Three passes of the fit from a first normal, two where the first leaves next to no misfit.
 /// \param total Of the weights.
-KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2 n, double total, FitFrame &frame)
+KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2 n, double total,
+                                              CurvatureRidge const &ridge, FitFrame &frame)
 {
-  // Weights then hardly differ from one, and the ridge is at its least: a third pass turned normals by 1e-10 at most.
+  // Weights then hardly differ from one: a third pass turned normals by 1e-10 at most.
   constexpr double next_to_none = 1e-3; // root mean square misfit [cells]
   int passes = 3;
-  double kappa = 0.1; // the curvature's ridge
-  double last_misfit = 0.0;
+  double last_misfit = 0.0, kappa = ridge.first;
   for (int pass = 1; pass <= passes; ++pass)
   {
     ParabolaFit const fit = fitParabola(fitMoments(samples, n, pass > 1, frame), kappa);
@@ -264,7 +285,7 @@ KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2
     {
       double const misfit = reweigh(samples, fit, frame);
       last_misfit = misfit / total;
-      kappa = Math::min(1.0, Math::max(misfit / total, 0.003 * 0.003) / 0.01);
+      kappa = ridge.next(last_misfit);
       if (misfit <= next_to_none * next_to_none * total)
         passes = 2;
     }
@@ -279,37 +300,64 @@ KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2
 KOKKOS_INLINE_FUNCTION bool isFace(FitSamples const &samples, Vector2 const &n, FitFrame &frame)
 {
   constexpr double least_weight = 1.0, most_miss = 3e-3, most_off = 0.01;
-  ParabolaFit const fit = fitParabola(fitMoments(samples, n, false, frame), 0.1);
+  ParabolaFit const fit = fitParabola(fitMoments(samples, n, false, frame), CurvatureRidge::ofScatter().first);
   double taken = 0.0, off = 0.0;
   for (int j = 0; j < samples.count; ++j)
   {
-    double const t = frame.t[j], alpha = samples.of_b[j] > 0.5 ? fit.alpha[1] : fit.alpha[0];
-    double const r = frame.y[j] - alpha - fit.beta * t - 0.5 * fit.gamma * (t * t + frame.spread[j]);
-    double const d = frame.slope[j] - fit.beta - fit.gamma * t, weight = samples.weight[j] * frame.taken[j];
+    int const side = samples.of_b[j] > 0.5 ? 1 : 0;
+    double const t = frame.t[j], alpha = fit.alpha[side], gamma = fit.gamma[side];
+    double const r = frame.y[j] - alpha - fit.beta * t - 0.5 * gamma * (t * t + frame.spread[j]);
+    double const d = frame.slope[j] - fit.beta - gamma * t, weight = samples.weight[j] * frame.taken[j];
     taken += weight;
     off += r * r + frame.spread[j] * d * d > most_miss * most_miss ? weight : 0.0;
   }
   return taken >= least_weight && off <= most_off * taken;
 }
 
+/// Samples that look the other way are of another face: the far side of a layer or a wedge that lies inside of the
+/// other material. With it the mean would be next to nothing, and along whatever is left. Where they are most of what
+/// is around it is the segment itself that looks the wrong way.
+///
+/// \param along Unit vector, of the segment and the one that it faces.
+KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
+{
+  Pack const x = along[0], y = along[1], zero = 0.0;
+  Pack alike = zero, opposed = zero;
+  for (int j = 0; j < s.count; j += pack_width)
+  {
+    Pack const cosine = loadPack(s.normal_x + j) * x + loadPack(s.normal_y + j) * y, weight = loadPack(s.weight + j);
+    alike += select(Pack(fit_least_cosine) <= cosine, weight, zero);
+    opposed += select(cosine <= Pack(-fit_least_cosine), weight, zero);
+  }
+  double const most = laneSum(opposed);
+  if (!(most > 0.0) || laneSum(alike) < 0.5 * most)
+    return;
+  for (int j = 0; j < s.count; j += pack_width)
+  {
+    Pack const cosine = loadPack(s.normal_x + j) * x + loadPack(s.normal_y + j) * y;
+    storePack(s.weight + j, select(Pack(-fit_least_cosine) < cosine, loadPack(s.weight + j), zero));
+  }
+}
+
 /// \brief Normal of the interface between two materials at a point, from the segments of both around it.
 ///
-/// A robust local parabola, shared in slope and curvature by the two sides, each with its own offset; the curvature's
-/// ridge follows from the fit's own misfit, so that flat interfaces are averaged and curved ones are not flattened.
-/// Three passes: fit, turn the frame by the slope beta (|beta| <= 1), reweigh. Two where the first one leaves next to
-/// no misfit. Before them the weights follow the gaps (weighByGaps). They begin with the samples' mean normal.
+/// Robust local parabolas of the two sides, that share their slope, each with its own offset and curvature (of a disc
+/// on a flat face they differ). Three passes: fit, turn the frame by the slope beta (|beta| <= 1), reweigh. Two where
+/// the first one leaves next to no misfit. Before them samples that look the other way are left out (dropOpposed), and
+/// the weights follow the gaps (weighByGaps). They begin with the samples' mean normal.
 ///
 /// \param samples  Segments around the point; those of zero weight count for nothing. Its weights are changed.
 /// \param fallback Unit vector, of the segment and the one that it faces; returned when the samples have no mean normal
 ///                 (no sample at all).
-/// \param keeps_faces Beside a corner of one body inside of another the mean is that of both faces: where it leaves a
-///                    large misfit, and what lies within 45 degrees of `fallback` is a flat face (isFace), the passes
-///                    begin with that one.
+/// \param rough Of what scatters (CurvatureRidge::ofScatter). Beside a corner of one body inside of another the mean is
+///              that of both faces: where it leaves a large misfit, and what lies within 45 degrees of `fallback` is a
+///              flat face (isFace), the passes begin with that one.
 /// \return Unit normal from a to b.
-KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool keeps_faces = false)
+KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
 {
   constexpr double large_misfit = 0.05; // root mean square [cells]
   samples.fillPack();
+  dropOpposed(samples, fallback);
   weighByGaps(samples);
   Pack mean_x = 0.0, mean_y = 0.0, weights = 0.0;
   for (int j = 0; j < samples.count; j += pack_width)
@@ -325,9 +373,10 @@ KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fal
   if (!(norm(mean) > 0.0))
     return fallback;
   FitFrame frame;
-  NormalGuess const guess = turnNormal(samples, normalised(mean), total, frame);
-  if (keeps_faces && guess.misfit > large_misfit * large_misfit && isFace(samples, fallback, frame))
-    return turnNormal(samples, fallback, total, frame).normal;
+  CurvatureRidge const ridge = rough ? CurvatureRidge::ofScatter() : CurvatureRidge::light();
+  NormalGuess const guess = turnNormal(samples, normalised(mean), total, ridge, frame);
+  if (rough && guess.misfit > large_misfit * large_misfit && isFace(samples, fallback, frame))
+    return turnNormal(samples, fallback, total, ridge, frame).normal;
   return guess.normal;
 }
 

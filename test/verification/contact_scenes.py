@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact without friction where symmetry or Newton gives the answer: oblique bars, a disc in its socket, a T of blocks."""
 from bisect import bisect
-from math import atan2, cos, degrees, exp, hypot, log, pi, radians, sin, sqrt
+from math import atan2, cos, degrees, exp, hypot, log, pi, radians, sin, sqrt, tan
 
 from harness import ROOT, check, clean, harmos, read_columns, run
 from lagrangian_contact import rectangle
@@ -56,6 +56,48 @@ def test_a_disc_in_its_socket_keeps_its_angular_momentum():
     check("dependence on the offset, of the loss", (max(kept[:2]) - min(kept[:2])) / (1.0 - min(kept[:2])), 1.0 / 3.0)
     check("lost at radius 16 cells", 1.0 - spun(16), 5e-4)
     check("lost at radius 8 cells, ten times slower", 1.0 - spun(8, slower=10.0), 2e-3)
+
+
+SOFT_SOCKET = "{material: soft, shape: annulus, center: [0.0, 0.0], inner_radius: 0.5, outer_radius: 3.0}"
+
+
+# Both sides deform, so that the normal is fitted. While the fit held curvatures back by its misfit the disc of four cells stood still after half a
+# revolution, and that of eight had lost 3.5e-3 (9e-2 ten times slower); decision 0044.
+def test_a_disc_in_a_socket_of_its_own_material_keeps_its_angular_momentum():
+    for radius, slower, bound in ((8, 1.0, 1.5e-3), (4, 4.0, 0.02)):
+        side = f"{{from: -0.75, to: 0.75, cells: {3 * radius}}}"
+        r = harmos(DECKS / "socket.yaml", {"mesh/x": side, "mesh/y": side, "bodies/socket": SOFT_SOCKET, "bodies/disc/angular_velocity": 2.0 / 13.0 / slower,
+                                           "run/end_time": 20.42 * slower, **QUIET})
+        check(f"radius {radius} cells, c/V {13.0 * slower:.0f}: angular momentum lost in half a revolution", 1.0 - r.last("angular_momentum") / r.first("angular_momentum"), bound)
+        clean(r)
+
+
+def under_pressure(inclusion, cycles, **overrides):
+    """A body, cut out of a block of its own material that slip walls hold, all under 1.5% of their modulus: nothing should move. Kinetic energy, largest, over what the pressure stores."""
+    pressure, modulus, side = 1e9, 2700.0 * 5000.0**2, "{from: -8.0, to: 8.0, cells: 16}"
+    law = "{eos: stiffened, density: 2700.0, sound_speed: 5000.0, strength: elastic, shear_modulus: 27.0e9}"
+    r = harmos(DECKS / "socket.yaml", {
+        "mesh": f"{{x: {side}, y: {side}}}", "materials": f"{{outer: {law}, inner: {law}}}", "run": f"{{end_time: 1.0, max_cycles: {cycles}}}", **QUIET,
+        "bodies": f"{{block: {{material: outer, shape: rectangle, center: [0.0, 0.0], size: [20.0, 20.0], pressure: {pressure}}}, "
+                  f"inclusion: {{material: inner, {inclusion}, cut: true, pressure: {pressure}}}}}", **overrides})
+    clean(r)
+    return r, max(r["kinetic_energy"]) / (0.5 * 16.0**2 * pressure**2 / modulus)
+
+
+# A disc of 2.3 cells' radius turned faster and faster: normals leaned with the facets that slip tilts. 6e-4, 3e-3, 3e-2 and 3e-3 after 300 cycles.
+def test_a_disc_under_pressure_in_its_hole_stays_at_rest():
+    for place in ([0.13, 0.37], [0.31, 0.17], [0.5, 0.77], [0.05, 0.62]):
+        _, moves = under_pressure(f"shape: disc, center: {place}, radius: 2.3", 600)
+        check(f"disc at {place}: kinetic energy over what the pressure stores", moves, 3e-4)
+
+
+# The mean of the normals of both faces of a wedge is along it, and rows of a cell above the tip had none: 4e-3 and 5e-3.
+def test_a_sharp_wedge_under_pressure_stays_in_its_notch():
+    for half in (10.0, 15.0):
+        tip, top = (0.0, -3.0), 8.0
+        right, left = (tip[0] + (top - tip[1]) * tan(radians(8.0 + lean)) for lean in (half, -half))
+        _, moves = under_pressure(f"shape: polygon, points: {[*tip, right, top, left, top]}", 300)
+        check(f"half angle {half} degrees: kinetic energy over what the pressure stores", moves, 1e-20)
 
 
 def line_of_centres(r, centre):
@@ -199,14 +241,15 @@ def released(load):
 # While corners that pass each other were cut off one after the other, six angles and four offsets of the mesh gave up to
 # 1.6e-2 at load 4: the slider and the right block hooked to each other. What is left hangs on last digits, so that the median
 # of five offsets is bounded. Five offsets by up to 4e-11 cells gave, at load 1, 9e-6 to 1.3e-5 and once 4.5e-5 at 0 degrees,
-# 3.6e-5 to 3.8e-5 at 15; at load 4 2.2e-4 to 2.8e-4, 3.9e-4 to 4.1e-4 and, at 30 degrees, 3.9e-4 to 4.3e-4.
+# 3.6e-5 to 3.8e-5 at 15; at load 4 2.2e-4 to 2.8e-4, 3.9e-4 to 4.1e-4 and, at 30 degrees, 3.9e-4 to 4.3e-4. With the fit of
+# decision 0044 5.6e-6 and 6.1e-6 at load 1, at load 4 2.0e-4, 1.7e-4 and 7e-4 to 8e-4: there alone of the 24 it is twice what it
+# was; their geometric mean went from 2.1e-4 to 2.0e-4, the largest from 1.35e-3 to 1.16e-3.
 def test_three_blocks_at_a_t_push_the_slider_out_as_body_fitted_ones_do():
     h = 2.4 / 38
     quiet = ((0.0, (0.0, 0.0)), (15.0, (0.31 * h, 0.17 * h)))
-    hard = quiet + ((30.0, (0.0, 0.0)),)
     # The last on a node at 45 degrees: 2.0e-3 to 1.2e-2 while void took the slider's corner away there; eight offsets by up to
     # 8e-11 cells now give 9e-4 to 1.8e-3.
-    for load, placed, worst in ((1.0, quiet, 5e-5), (4.0, hard, 6e-4), (4.0, ((45.0, (0.0, 0.0)),), 1.6e-3)):
+    for load, placed, worst in ((1.0, quiet, 2.5e-5), (4.0, quiet, 4e-4), (4.0, ((30.0, (0.0, 0.0)),), 1e-3), (4.0, ((45.0, (0.0, 0.0)),), 1.6e-3)):
         time, exact = fitted_tee(load)
         print(f"  load {load}: body-fitted {exact[-1]:.2e}, all energy released {released(load):.2e}")
         check("body-fitted gain of the slider, over what the energy released gives", abs(exact[-1] / released(load) - 1.0), 0.3)
@@ -217,7 +260,7 @@ def test_three_blocks_at_a_t_push_the_slider_out_as_body_fitted_ones_do():
                 errors.append(max(abs(c - interpolated(time, exact, t)) for t, c in zip(when, change)))
             print("  differences:", ", ".join(f"{e:.2e}" for e in errors))
             check(f"{angle} degrees, load {load}: change of the slider's momentum, median difference",
-                  sorted(errors)[1], worst)
+                  sorted(errors)[2], worst)
             check("the largest", max(errors), 2.5 * worst)
 
 

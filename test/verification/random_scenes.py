@@ -101,6 +101,9 @@ def test_scenes_that_once_broke_keep_their_ledgers():
         r = harmos(DECKS / f"{name}.yaml", QUIET)
         closed(name, r)
         check(f"{name}: unconverged cycles", r.summary["unconverged_cycles"], 0)
+        if name == "bond_on_the_axis":
+            # A body that begins with a velocity across the axis: impulses that the axis takes did as much as the last digits of its rows had it, up to 0.6 of the energy.
+            check(f"{name}: work of walls at rest in the first cycle, of the energy there is", r["external_work"][1] / r.first("kinetic_energy"), 1e-12)
         clean(r)
 
 

@@ -11,12 +11,12 @@ using namespace Harmos;
 namespace
 {
 
-Vector2 fit(std::vector<FitSample> const &sample, Vector2 const &own = {1.0, 0.0}, bool keeps_faces = false)
+Vector2 fit(std::vector<FitSample> const &sample, Vector2 const &own = {1.0, 0.0}, bool rough = false)
 {
   FitSamples samples;
   for (FitSample const &s : sample)
     EXPECT_TRUE(samples.push(s));
-  return fitNormal(samples, own, keeps_faces);
+  return fitNormal(samples, own, rough);
 }
 
 FitSample sampleAt(Vector2 const &x, Vector2 const &n, double length, int side, double gap = 0.0)
@@ -168,6 +168,46 @@ TEST(NormalFit, chordsOfACircle_normalIsRadial)
   }
   RecordProperty("largest_angle_error", std::to_string(largest));
   EXPECT_LT(largest, 2e-3);
+}
+
+// Chords of small circles, as cells cut them: long and short ones by turns, more on one hand. No parabola is a circle;
+// a misfit must not flatten it, or the normal turns with what the curvature lacks.
+TEST(NormalFit, chordsOfSmallCircles_areNotFlattened)
+{
+  for (double const R : {2.5, 4.0})
+  {
+    double phi = -2.6 / R;
+    std::vector<FitSample> s;
+    for (int i = 0; phi < 1.3 / R; ++i)
+    {
+      double const chord = (i % 2 == 0 ? 0.9 : 0.3) / R, middle = phi + 0.5 * chord, inside = R * std::cos(0.5 * chord);
+      Vector2 const n{std::cos(middle), std::sin(middle)};
+      for (int side = 0; side < 2; ++side)
+        s.push_back(sampleAt(inside * n - Vector2{R, 0.0}, n, 2.0 * R * std::sin(0.5 * chord), side));
+      phi += chord;
+    }
+    EXPECT_LT(angleBetween(fit(s), {1.0, 0.0}), 0.035 / (R * R)) << "radius " << R;
+  }
+}
+
+// The two faces of a wedge of 12 degrees inside of the other material: each has its own normal, and neither the mean of
+// both, which is along the wedge.
+TEST(NormalFit, facesOfASharpWedge_keepTheirNormals)
+{
+  Vector2 const left = atAngle(186.0), right = atAngle(-6.0);
+  std::vector<FitSample> s;
+  for (int i = 0; i < 4; ++i)
+  {
+    double const y = 0.5 + i; // above the tip
+    Vector2 const on_left{-0.105 * y, y}, on_right{0.105 * y, y}, at{-0.105 * 0.5, 0.5};
+    for (int side = 0; side < 2; ++side)
+    {
+      s.push_back(sampleAt(on_left - at, left, 1.0, side));
+      s.push_back(sampleAt(on_right - at, right, 1.0, side));
+    }
+  }
+  EXPECT_LT(angleBetween(fit(s, left), left), 1e-3);
+  EXPECT_LT(angleBetween(fit(s, right), right), 0.02);
 }
 
 // Below a misfit of 1e-3 the last pass is left out: heights scattered by a little more or less give the same slope, of
