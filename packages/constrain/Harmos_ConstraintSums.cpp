@@ -11,7 +11,7 @@ namespace
 struct RowWork
 {
   Vector2 impulse;     // on side b; side a gets the opposite
-  double power = 0.0;  // p . G v_mean
+  double power = 0.0;  // p . G v_mean (meanVelocity)
   double driven = 0.0; // its part by driven sides
 };
 
@@ -66,7 +66,7 @@ View<RowWork *> rowWork(RowWorker const &worker, WorkArrays const &arrays)
   return work;
 }
 
-/// What the node conditions take from the rows' impulses at one dof, and its work with v_mean.
+/// What the node conditions take from the rows' impulses at one dof, and its work with meanVelocity.
 struct RemovedImpulse
 {
   Vector2 impulse;

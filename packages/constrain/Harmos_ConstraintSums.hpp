@@ -14,7 +14,10 @@ namespace Harmos
 /// the driven sides, and by the node conditions, which take impulse f - P f from a dof:
 ///   contact_loss = - sum p . G v_mean (all sides; walls at rest),
 ///   driven_work  = - sum p . (driven side's part of G v_mean) - sum over dofs (f - P f) . v_mean,
-///   change of kinetic energy by the constraints = driven_work - contact_loss, exactly, v_mean = (v_n + half)/2.
+///   change of kinetic energy by the constraints = driven_work - contact_loss, exactly.
+///
+/// v_mean = (v_n + half)/2, but of what the conditions hold half: what a wall takes does no work with a velocity that
+/// it stops.
 ///
 /// \param mean_bodies Bodies with (V_n + V_half)/2.
 /// \param tell_pressure Whether normal impulses and loaded lengths count for the contact pressure of the pairs.

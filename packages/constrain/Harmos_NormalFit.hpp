@@ -136,7 +136,8 @@ struct FitFrame
   double omega[max_fit_samples]; // robust factor of the weight
 };
 
-/// Moments of one side's samples, what the normal equations are made of; q = (t^2 + spread) / 2.
+/// Moments of one side's samples, what the normal equations are made of: sums of w, w t, w q, w y, and with products of
+/// two also those of the slopes' terms, q = (t^2 + spread) / 2.
 struct SideMoments
 {
   double w, t, q, y, tt, tq, qq, ty, qy;
@@ -151,7 +152,7 @@ struct FitMoments
 /// \param weighed Whether the robust factors are known; else they are one.
 KOKKOS_INLINE_FUNCTION FitMoments fitMoments(FitSamples const &s, Vector2 const &n, bool weighed, FitFrame &frame)
 {
-  constexpr int moments = 9, room = 24; // of both sides, in whole packs
+  constexpr int moments = 9, room = 24; // of a side; of both, in whole packs
   Pack const nx = n[0], ny = n[1];
   Pack sum[room];
   HARMOS_UNROLL
@@ -296,7 +297,7 @@ KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2
 }
 
 /// Whether the samples that lie within 45 degrees of a normal are a smooth face that tells it: a cell of them, all but
-/// a hundredth on one parabola to 3e-3 cells.
+/// a hundredth on their sides' parabolas to 3e-3 cells.
 KOKKOS_INLINE_FUNCTION bool isFace(FitSamples const &samples, Vector2 const &n, FitFrame &frame)
 {
   constexpr double least_weight = 1.0, most_miss = 3e-3, most_off = 0.01;
@@ -315,8 +316,8 @@ KOKKOS_INLINE_FUNCTION bool isFace(FitSamples const &samples, Vector2 const &n, 
 }
 
 /// Samples that look the other way are of another face: the far side of a layer or a wedge that lies inside of the
-/// other material. With it the mean would be next to nothing, and along whatever is left. Where they are most of what
-/// is around it is the segment itself that looks the wrong way.
+/// other material. With it the mean would be next to nothing, and along whatever is left. Where they weigh
+/// more than twice what looks along it is the segment itself that looks the wrong way.
 ///
 /// \param along Unit vector, of the segment and the one that it faces.
 KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)

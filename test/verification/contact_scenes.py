@@ -61,8 +61,8 @@ def test_a_disc_in_its_socket_keeps_its_angular_momentum():
 SOFT_SOCKET = "{material: soft, shape: annulus, center: [0.0, 0.0], inner_radius: 0.5, outer_radius: 3.0}"
 
 
-# Both sides deform, so that the normal is fitted. While the fit held curvatures back by its misfit the disc of four cells stood still after half a
-# revolution, and that of eight had lost 3.5e-3 (9e-2 ten times slower); decision 0044.
+# Both sides deform, so that the normal is fitted. While the fit held curvatures back by its misfit the disc of four cells lost 0.4 in half a
+# revolution (or all), and that of eight 3.5e-3 (0.11 ten times slower); decision 0044.
 def test_a_disc_in_a_socket_of_its_own_material_keeps_its_angular_momentum():
     for radius, slower, bound in ((8, 1.0, 1.5e-3), (4, 4.0, 0.02)):
         side = f"{{from: -0.75, to: 0.75, cells: {3 * radius}}}"
@@ -72,31 +72,31 @@ def test_a_disc_in_a_socket_of_its_own_material_keeps_its_angular_momentum():
         clean(r)
 
 
-def under_pressure(inclusion, cycles, **overrides):
+def under_pressure(inclusion, cycles):
     """A body, cut out of a block of its own material that slip walls hold, all under 1.5% of their modulus: nothing should move. Kinetic energy, largest, over what the pressure stores."""
     pressure, modulus, side = 1e9, 2700.0 * 5000.0**2, "{from: -8.0, to: 8.0, cells: 16}"
     law = "{eos: stiffened, density: 2700.0, sound_speed: 5000.0, strength: elastic, shear_modulus: 27.0e9}"
     r = harmos(DECKS / "socket.yaml", {
         "mesh": f"{{x: {side}, y: {side}}}", "materials": f"{{outer: {law}, inner: {law}}}", "run": f"{{end_time: 1.0, max_cycles: {cycles}}}", **QUIET,
         "bodies": f"{{block: {{material: outer, shape: rectangle, center: [0.0, 0.0], size: [20.0, 20.0], pressure: {pressure}}}, "
-                  f"inclusion: {{material: inner, {inclusion}, cut: true, pressure: {pressure}}}}}", **overrides})
+                  f"inclusion: {{material: inner, {inclusion}, cut: true, pressure: {pressure}}}}}"})
     clean(r)
-    return r, max(r["kinetic_energy"]) / (0.5 * 16.0**2 * pressure**2 / modulus)
+    return max(r["kinetic_energy"]) / (0.5 * 16.0**2 * pressure**2 / modulus)
 
 
 # A disc of 2.3 cells' radius turned faster and faster: normals leaned with the facets that slip tilts. 6e-4, 3e-3, 3e-2 and 3e-3 after 300 cycles.
 def test_a_disc_under_pressure_in_its_hole_stays_at_rest():
     for place in ([0.13, 0.37], [0.31, 0.17], [0.5, 0.77], [0.05, 0.62]):
-        _, moves = under_pressure(f"shape: disc, center: {place}, radius: 2.3", 600)
+        moves = under_pressure(f"shape: disc, center: {place}, radius: 2.3", 600)
         check(f"disc at {place}: kinetic energy over what the pressure stores", moves, 3e-4)
 
 
-# The mean of the normals of both faces of a wedge is along it, and rows of a cell above the tip had none: 4e-3 and 5e-3.
+# The mean of the normals of both faces of a wedge is along it, and segments within a cell of the tip had no rows: 5e-3 and 4e-3.
 def test_a_sharp_wedge_under_pressure_stays_in_its_notch():
     for half in (10.0, 15.0):
         tip, top = (0.0, -3.0), 8.0
         right, left = (tip[0] + (top - tip[1]) * tan(radians(8.0 + lean)) for lean in (half, -half))
-        _, moves = under_pressure(f"shape: polygon, points: {[*tip, right, top, left, top]}", 300)
+        moves = under_pressure(f"shape: polygon, points: {[*tip, right, top, left, top]}", 300)
         check(f"half angle {half} degrees: kinetic energy over what the pressure stores", moves, 1e-20)
 
 

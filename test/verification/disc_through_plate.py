@@ -57,7 +57,7 @@ def test_moved_regions_overlap_little():
     print("  polygon by polygon, cells over the whole run:", ", ".join(f"{p:.2f}" for p in polygons))
     check("the largest, cells over the whole run", max(polygons), 5.0)
     print("  in any one cell and cycle, of the cell:", ", ".join(f"{p:.4f}" for p in largest))
-    check("median of the largest polygon overlap in any one cell and cycle", sorted(largest)[1], 0.02)
+    check("median of the largest polygon overlap in any one cell and cycle", sorted(largest)[1], 0.025)
     check("the largest", max(largest), 0.03)
 
 
