@@ -254,39 +254,53 @@ struct NormalGuess
   double misfit; // mean squared, of all samples [cells^2]
 };
 
-/// How a fit holds curvatures back: kappa of the first pass, and of the others per_misfit times the mean squared
-/// misfit, within least .. 1.
-struct CurvatureRidge
+/// How far the samples lie to one side of the point: 0 where they lie all around, to 1 where the interface ends there
+/// (smoothly, as the mean of t goes from half of its standard deviation to all of it).
+KOKKOS_INLINE_FUNCTION double oneSided(FitMoments const &m)
 {
-  double first, least, per_misfit;
+  constexpr double around = 0.5, least_spread = 1e-12;
+  double const w = m.side[0].w + m.side[1].w;
+  if (!(w > 0.0))
+    return 0.0;
+  double const mean = (m.side[0].t + m.side[1].t) / w;
+  double const spread = Math::max((m.side[0].tt + m.side[1].tt) / w - mean * mean, least_spread);
+  double const part = Math::clamp((Math::fabs(mean) / Math::sqrt(spread) - around) / (1.0 - around), 0.0, 1.0);
+  return part * part * (3.0 - 2.0 * part);
+}
 
-  KOKKOS_INLINE_FUNCTION double next(double misfit) const { return Math::clamp(per_misfit * misfit, least, 1.0); }
-
-  /// Next to none: enough for few samples, which tell no curvature. More flattens arcs, and where samples lie more to
-  /// one side than to the other the slope turns with what the curvature lacks.
-  static KOKKOS_INLINE_FUNCTION CurvatureRidge light() { return {1e-3, 1e-3, 0.0}; }
-
-  /// The more the samples scatter the flatter: the thin outlines of fluids, and the few edges around a corner.
-  static KOKKOS_INLINE_FUNCTION CurvatureRidge ofScatter() { return {0.1, 9e-4, 100.0}; }
-};
+/// kappa of a pass, how much curvatures are held back.
+///
+/// Next to nothing between solids: more flattens arcs, and where samples lie more to one side than to the other the
+/// slope turns with what the curvature lacks. At an end of the interface (the rim of an impact) a curvature is
+/// extrapolated, and some of that is left. Where samples scatter the more the flatter.
+///
+/// \param rough  As of fitNormal. \param misfit Mean squared, of the pass before. [cells^2]
+KOKKOS_INLINE_FUNCTION double curvatureRidge(FitMoments const &m, bool rough, int pass, double misfit)
+{
+  constexpr double light = 1e-3, at_ends = 0.03;
+  constexpr double first_rough = 0.1, least_rough = 9e-4, rough_misfit = 0.1; // the last in cells
+  if (!rough)
+    return light + at_ends * oneSided(m);
+  return pass == 1 ? first_rough : Math::clamp(misfit / (rough_misfit * rough_misfit), least_rough, 1.0);
+}
 
 /// Three passes of the fit from a first normal, two where the first leaves next to no misfit.
-/// \param total Of the weights.
-KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2 n, double total,
-                                              CurvatureRidge const &ridge, FitFrame &frame)
+/// \param total Of the weights. \param rough As of fitNormal.
+KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2 n, double total, bool rough,
+                                              FitFrame &frame)
 {
   // Weights then hardly differ from one: a third pass turned normals by 1e-10 at most.
   constexpr double next_to_none = 1e-3; // root mean square misfit [cells]
   int passes = 3;
-  double last_misfit = 0.0, kappa = ridge.first;
+  double last_misfit = 0.0;
   for (int pass = 1; pass <= passes; ++pass)
   {
-    ParabolaFit const fit = fitParabola(fitMoments(samples, n, pass > 1, frame), kappa);
+    FitMoments const m = fitMoments(samples, n, pass > 1, frame);
+    ParabolaFit const fit = fitParabola(m, curvatureRidge(m, rough, pass, last_misfit));
     if (pass < passes)
     {
       double const misfit = reweigh(samples, fit, frame);
       last_misfit = misfit / total;
-      kappa = ridge.next(last_misfit);
       if (misfit <= next_to_none * next_to_none * total)
         passes = 2;
     }
@@ -300,8 +314,8 @@ KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2
 /// a hundredth on their sides' parabolas to 3e-3 cells.
 KOKKOS_INLINE_FUNCTION bool isFace(FitSamples const &samples, Vector2 const &n, FitFrame &frame)
 {
-  constexpr double least_weight = 1.0, most_miss = 3e-3, most_off = 0.01;
-  ParabolaFit const fit = fitParabola(fitMoments(samples, n, false, frame), CurvatureRidge::ofScatter().first);
+  constexpr double least_weight = 1.0, most_miss = 3e-3, most_off = 0.01, ridge = 0.1;
+  ParabolaFit const fit = fitParabola(fitMoments(samples, n, false, frame), ridge);
   double taken = 0.0, off = 0.0;
   for (int j = 0; j < samples.count; ++j)
   {
@@ -350,7 +364,8 @@ KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
 /// \param samples  Segments around the point; those of zero weight count for nothing. Its weights are changed.
 /// \param fallback Unit vector, of the segment and the one that it faces; returned when the samples have no mean normal
 ///                 (no sample at all).
-/// \param rough Of what scatters (CurvatureRidge::ofScatter). Beside a corner of one body inside of another the mean is
+/// \param rough Of what scatters: the thin outlines of fluids, and a side alone around a corner. Beside a corner of one
+/// body inside of another the mean is
 ///              that of both faces: where it leaves a large misfit, and what lies within 45 degrees of `fallback` is a
 ///              flat face (isFace), the passes begin with that one.
 /// \return Unit normal from a to b.
@@ -374,10 +389,9 @@ KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fal
   if (!(norm(mean) > 0.0))
     return fallback;
   FitFrame frame;
-  CurvatureRidge const ridge = rough ? CurvatureRidge::ofScatter() : CurvatureRidge::light();
-  NormalGuess const guess = turnNormal(samples, normalised(mean), total, ridge, frame);
+  NormalGuess const guess = turnNormal(samples, normalised(mean), total, rough, frame);
   if (rough && guess.misfit > large_misfit * large_misfit && isFace(samples, fallback, frame))
-    return turnNormal(samples, fallback, total, ridge, frame).normal;
+    return turnNormal(samples, fallback, total, rough, frame).normal;
   return guess.normal;
 }
 

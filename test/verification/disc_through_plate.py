@@ -36,7 +36,7 @@ def test_moved_regions_overlap_little():
         polygons.append(r.last("polygon_overlap") / 0.00025**2)
         largest.append(max(r["polygon_overlap_largest"]))
         kept.append(r.last("disc.momentum_x") / r.first("disc.momentum_x"))
-        # Of what is remapped: fifteen places give 0.10 to 0.14 cells over the run, and at most 0.008 in a cell and cycle. With
+        # Of what is remapped: fifteen places give 0.10 to 0.30 cells over the run, and at most 0.007 in a cell and cycle. With
         # normals that flattened arcs (decision 0044) 0.17 to 0.65, 0.012.
         left = r.last("remapped_overlap") / 0.00025**2
         remapped.append(left)
@@ -44,15 +44,14 @@ def test_moved_regions_overlap_little():
         check("in any one cell and cycle", max(r["remapped_overlap_largest"]), 0.015)
         check("mass", r.summary["mass_error"], 1e-12)
         check("energy ledger", r.summary["energy_error"], 1e-10)
-        assert left < 0.1 * polygons[-1]
+        assert left < 0.2 * polygons[-1]
         clean(r)
-    check("what is remapped, cells over the whole run: the largest", max(remapped), 0.25)
-    # 0.7698 with twice the cells.
-    check("momentum kept by the disc, from 0.7710", max(abs(k - 0.7710) for k in kept), 2e-3)
+    check("what is remapped, cells over the whole run: the largest", max(remapped), 0.5)
+    # 0.769 to 0.770 with twice the cells, by any fit.
+    check("momentum kept by the disc, from 0.7695", max(abs(k - 0.7695) for k in kept), 2e-3)
     print("  cells over the whole run:", ", ".join(f"{o:.3f}" for o in overlaps))
-    # 0.26 to 0.33 with normals that flattened arcs; what is more comes in the first microsecond, at the rim (decision 0044).
-    check("median overlap of the moved regions, cells over the whole run", sorted(overlaps)[1], 0.75)
-    check("the largest", max(overlaps), 0.85)
+    # Fifteen places give 0.36 to 0.43 (0.26 to 0.33 with normals that flattened arcs).
+    check("the largest overlap of the moved regions, cells over the whole run", max(overlaps), 0.5)
     # Polygon against polygon, whatever void is left: mostly among fragments after 3.9 us.
     print("  polygon by polygon, cells over the whole run:", ", ".join(f"{p:.2f}" for p in polygons))
     check("the largest, cells over the whole run", max(polygons), 5.0)
