@@ -242,8 +242,7 @@ def released(load):
 # 1.6e-2 at load 4: the slider and the right block hooked to each other. What is left hangs on last digits, so that the median
 # of five offsets is bounded. Five offsets by up to 4e-11 cells gave, at load 1, 9e-6 to 1.3e-5 and once 4.5e-5 at 0 degrees,
 # 3.6e-5 to 3.8e-5 at 15; at load 4 2.2e-4 to 2.8e-4, 3.9e-4 to 4.1e-4 and, at 30 degrees, 3.9e-4 to 4.3e-4. With the fit of
-# decision 0044 5.6e-6 and 6.1e-6 at load 1, at load 4 2.0e-4, 1.7e-4 and 7e-4 to 8e-4: there alone of the 24 it is twice what it
-# was; their geometric mean went from 2.1e-4 to 2.0e-4, the largest from 1.35e-3 to 1.16e-3.
+# decision 0044 4e-6 and 9.5e-6 at load 1, at load 4 2.3e-4, 5e-5 and 5.0e-4.
 def test_three_blocks_at_a_t_push_the_slider_out_as_body_fitted_ones_do():
     h = 2.4 / 38
     quiet = ((0.0, (0.0, 0.0)), (15.0, (0.31 * h, 0.17 * h)))
