@@ -274,7 +274,8 @@ KOKKOS_INLINE_FUNCTION double oneSided(FitMoments const &m)
 /// slope turns with what the curvature lacks. At an end of the interface (the rim of an impact) a curvature is
 /// extrapolated, and some of that is left. Where samples scatter the more the flatter.
 ///
-/// \param rough  As of fitNormal. \param misfit Mean squared, of the pass before. [cells^2]
+/// \param rough  As of fitNormal.
+/// \param misfit Mean squared, of the pass before. [cells^2]
 KOKKOS_INLINE_FUNCTION double curvatureRidge(FitMoments const &m, bool rough, int pass, double misfit)
 {
   constexpr double light = 1e-3, at_ends = 0.03;
@@ -285,7 +286,8 @@ KOKKOS_INLINE_FUNCTION double curvatureRidge(FitMoments const &m, bool rough, in
 }
 
 /// Three passes of the fit from a first normal, two where the first leaves next to no misfit.
-/// \param total Of the weights. \param rough As of fitNormal.
+/// \param total Of the weights.
+/// \param rough As of fitNormal.
 KOKKOS_INLINE_FUNCTION NormalGuess turnNormal(FitSamples const &samples, Vector2 n, double total, bool rough,
                                               FitFrame &frame)
 {
@@ -330,8 +332,8 @@ KOKKOS_INLINE_FUNCTION bool isFace(FitSamples const &samples, Vector2 const &n, 
 }
 
 /// Samples that look the other way are of another face: the far side of a layer or a wedge that lies inside of the
-/// other material. With it the mean would be next to nothing, and along whatever is left. Where they weigh
-/// more than twice what looks along it is the segment itself that looks the wrong way.
+/// other material. With it the mean would be next to nothing, and along whatever is left. Where they weigh more than
+/// twice what looks along it is the segment itself that looks the wrong way.
 ///
 /// \param along Unit vector, of the segment and the one that it faces.
 KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
@@ -364,10 +366,9 @@ KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
 /// \param samples  Segments around the point; those of zero weight count for nothing. Its weights are changed.
 /// \param fallback Unit vector, of the segment and the one that it faces; returned when the samples have no mean normal
 ///                 (no sample at all).
-/// \param rough Of what scatters: the thin outlines of fluids, and a side alone around a corner. Beside a corner of one
-/// body inside of another the mean is
-///              that of both faces: where it leaves a large misfit, and what lies within 45 degrees of `fallback` is a
-///              flat face (isFace), the passes begin with that one.
+/// \param rough Of what scatters: the thin outlines of fluids, and a side alone around a corner (curvatureRidge). Beside
+///              a corner of one body inside of another the mean is that of both faces: where it leaves a large misfit,
+///              and what lies within 45 degrees of `fallback` is a smooth face (isFace), the passes begin with that one.
 /// \return Unit normal from a to b.
 KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
 {
