@@ -88,6 +88,13 @@ KOKKOS_INLINE_FUNCTION Pack fitWeight(Pack const &length, Pack const &distance_s
   return length * kernel * kernel;
 }
 
+/// From 0 at part <= 0 to 1 at part >= 1, with no slope at either.
+KOKKOS_INLINE_FUNCTION double smoothStep(double part)
+{
+  double const p = Math::clamp(part, 0.0, 1.0);
+  return p * p * (3.0 - 2.0 * p);
+}
+
 /// What the samples' gaps leave of their base weights w_j:
 ///
 ///   (1 - theta) / (1 + (g_j/0.3)^2) + theta / (1 + (g_j/0.003)^2),
@@ -108,8 +115,7 @@ KOKKOS_INLINE_FUNCTION void weighByGaps(FitSamples &s)
     Pack const g = loadPack(s.gap + j) * per_closed;
     sum += loadPack(s.weight + j) / (one + g * g);
   }
-  double const part = Math::clamp((laneSum(sum) - least_closed) / (closed - least_closed), 0.0, 1.0);
-  Pack const theta = part * part * (3.0 - 2.0 * part);
+  Pack const theta = smoothStep((laneSum(sum) - least_closed) / (closed - least_closed));
   for (int j = 0; j < s.count; j += pack_width)
   {
     Pack const gap = loadPack(s.gap + j), g = gap * per_open, c = gap * per_closed;
@@ -264,8 +270,7 @@ KOKKOS_INLINE_FUNCTION double oneSided(FitMoments const &m)
     return 0.0;
   double const mean = (m.side[0].t + m.side[1].t) / w;
   double const spread = Math::max((m.side[0].tt + m.side[1].tt) / w - mean * mean, least_spread);
-  double const part = Math::clamp((Math::fabs(mean) / Math::sqrt(spread) - around) / (1.0 - around), 0.0, 1.0);
-  return part * part * (3.0 - 2.0 * part);
+  return smoothStep((Math::fabs(mean) / Math::sqrt(spread) - around) / (1.0 - around));
 }
 
 /// kappa of a pass, how much curvatures are held back.
@@ -366,9 +371,10 @@ KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
 /// \param samples  Segments around the point; those of zero weight count for nothing. Its weights are changed.
 /// \param fallback Unit vector, of the segment and the one that it faces; returned when the samples have no mean normal
 ///                 (no sample at all).
-/// \param rough Of what scatters: the thin outlines of fluids, and a side alone around a corner (curvatureRidge). Beside
-///              a corner of one body inside of another the mean is that of both faces: where it leaves a large misfit,
-///              and what lies within 45 degrees of `fallback` is a smooth face (isFace), the passes begin with that one.
+/// \param rough Of what scatters: the thin outlines of fluids, and a side alone around a corner (curvatureRidge).
+///              Beside a corner of one body inside of another the mean is that of both faces: where it leaves a large
+///              misfit, and what lies within 45 degrees of `fallback` is a smooth face (isFace), the passes begin with
+///              that one.
 /// \return Unit normal from a to b.
 KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
 {
