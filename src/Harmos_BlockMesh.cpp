@@ -259,6 +259,14 @@ void refuseOverlaps(Deck const &deck, DeckMesh const &whole)
 
 } // namespace
 
+Shape wallShape(Deck const &deck, int side)
+{
+  std::vector<Vector2> corners;
+  for (Corner const &x : wallBlock(deck, side).corner)
+    corners.push_back({x[0], x[1]});
+  return Shape::polygon(corners);
+}
+
 DeckMesh makeBlockMesh(Deck const &deck)
 {
   DeckMesh whole = makeBlocks(deck);

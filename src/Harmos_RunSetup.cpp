@@ -296,7 +296,7 @@ void setUp(Run &run)
   try
   {
     Mesh const mesh = makeLocalMesh(run);
-    run.scene = makeScene(run.deck, mesh, *run.exchange);
+    run.scene = makeScene(run.deck, run.whole, mesh, *run.exchange);
     refuseCutRigidBodies(run.deck, mesh);
     part = "bodies: ";
     if (fresh)

@@ -27,32 +27,86 @@ std::vector<double> gridLines(AxisSpec const &axis)
   return lines;
 }
 
-RigidBody rigidBody(Deck const &deck, BodySpec const &spec, Shape const &shape)
+/// What a body fills.
+struct Extent
+{
+  Vector2 centroid = {0.0, 0.0};
+  double volume = 0.0;  // or per radian of the ring
+  double inertia = 0.0; // polar second moment of area about the centroid [m^4]
+};
+
+/// Of the cells of a body.
+Extent extentOfCells(DeckMesh const &whole, int body, Geometry geometry)
+{
+  std::vector<Shape> cells;
+  for (std::size_t c = 0; c < whole.cell_body.size(); ++c)
+    if (whole.cell_body[c] == body)
+    {
+      std::vector<Vector2> corners;
+      for (int const node : whole.mesh.cell[c])
+        corners.push_back({whole.mesh.node[node][0], whole.mesh.node[node][1]});
+      cells.push_back(Shape::polygon(corners));
+    }
+  Extent extent;
+  double area = 0.0;
+  for (Shape const &cell : cells)
+  {
+    extent.volume += cell.volume(geometry);
+    extent.centroid += cell.area() * cell.centroid();
+    area += cell.area();
+  }
+  extent.centroid = (1.0 / area) * extent.centroid;
+  for (Shape const &cell : cells)
+  {
+    Vector2 const arm = cell.centroid() - extent.centroid;
+    extent.inertia += cell.inertia() + cell.area() * dot(arm, arm);
+  }
+  return extent;
+}
+
+/// Whether the outline of a body is that of its shape: not of blocks with arcs and of parts of a file's mesh.
+bool isOutlined(BodySpec const &spec)
+{
+  auto const &radii = spec.arc_radius;
+  return spec.shape.kind != ShapeKind::MeshPart &&
+         std::all_of(std::begin(radii), std::end(radii), [](double radius) { return radius == 0.0; });
+}
+
+RigidBody rigidBody(Deck const &deck, BodySpec const &spec, Extent const &extent)
 {
   RigidBody body;
   body.material = spec.field;
   body.motion = spec.motion;
-  body.centre = shape.centroid();
+  body.centre = extent.centroid;
   double const density = deck.laws[spec.law].law.density0;
-  body.mass = density * shape.volume(deck.geometry);
+  body.mass = density * extent.volume;
   body.axial = deck.geometry == Geometry::Axisymmetric;
-  body.inertia = density * shape.inertia();
+  body.inertia = density * extent.inertia;
   body.angular_velocity = spec.angular_velocity;
   body.velocity = spec.velocity + spec.angular_velocity * perpendicular(body.centre - spec.shape.reference());
   return body;
 }
 
-void addRigidBodies(Deck const &deck, Scene &scene)
+void addRigidBodies(Deck const &deck, DeckMesh const &whole, Scene &scene)
 {
   scene.rigid_start.resize(deck.num_rigid_bodies);
   scene.rigid_shape.resize(deck.num_rigid_bodies);
-  for (BodySpec const &spec : deck.bodies)
+  for (std::size_t i = 0; i < deck.bodies.size(); ++i)
   {
+    BodySpec const &spec = deck.bodies[i];
     int const number = deck.fields[spec.field].rigid_body;
     if (number < 0)
       continue;
-    scene.rigid_shape[number] = makeShape(spec.shape);
-    scene.rigid_start[number] = rigidBody(deck, spec, scene.rigid_shape[number]);
+    Extent extent;
+    if (isOutlined(spec))
+    {
+      Shape const shape = makeShape(spec.shape);
+      scene.rigid_shape[number] = shape;
+      extent = {shape.centroid(), shape.volume(deck.geometry), shape.inertia()};
+    }
+    else
+      extent = extentOfCells(whole, static_cast<int>(i), deck.geometry);
+    scene.rigid_start[number] = rigidBody(deck, spec, extent);
   }
 }
 
@@ -207,7 +261,7 @@ std::vector<double> warmestBodies(Deck const &deck)
 
 } // namespace
 
-Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange)
+Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Exchange const &exchange)
 {
   Scene scene;
   scene.kinematics = deck.kinematics;
@@ -215,7 +269,7 @@ Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange)
   scene.exchange = &exchange;
   scene.boundary = buildBoundaryConditions(
       mesh, deviceCopy("boundary", std::vector<Boundary>(deck.boundary, deck.boundary + num_boundary_sides)));
-  addRigidBodies(deck, scene);
+  addRigidBodies(deck, whole, scene);
 
   std::vector<Material> materials;
   for (std::size_t field = 0; field < deck.fields.size(); ++field)
@@ -229,6 +283,7 @@ Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange)
     wall.rigid_body = static_cast<int>(scene.rigid_start.size());
     wall.density0 = 1.0;
     scene.rigid_start.push_back(body);
+    scene.rigid_shape.push_back(wallShape(deck, walls[w]));
     materials.push_back(wall);
   }
   scene.materials = deviceCopy("materials", materials);

@@ -25,8 +25,8 @@ Shape makeShape(ShapeSpec const &spec);
 /// A body as it is painted at time zero.
 Body paintedBody(BodySpec const &spec);
 
-/// Everything that does not change: `mesh` and `exchange` are given, the rest comes from the deck.
-Scene makeScene(Deck const &deck, Mesh const &mesh, Exchange const &exchange);
+/// Everything that does not change: meshes and `exchange` are given, the rest comes from the deck.
+Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Exchange const &exchange);
 
 /// Whether some law of the deck can fail, so that pairs carry damage.
 bool tracksDamage(Deck const &deck);

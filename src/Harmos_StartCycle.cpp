@@ -73,7 +73,8 @@ void checkScene(Scene const &scene)
               std::to_string(table.extent(1)) + "; expected: " + n + " x " + n + ", as many as materials");
   require(static_cast<int>(scene.boundary.node_index.extent(0)) == scene.mesh.num_nodes,
           "scene.boundary does not belong to scene.mesh; see buildBoundaryConditions");
-  require(scene.rigid_shape.size() == scene.rigid_start.size() || scene.kinematics == Kinematics::Lagrangian,
+  require(scene.rigid_shape.size() == scene.rigid_start.size() ||
+              (scene.kinematics == Kinematics::Lagrangian && scene.rigid_shape.empty()),
           "scene.rigid_shape and scene.rigid_start differ in number");
   if (scene.exchange->size() == 1)
     return;
@@ -138,6 +139,8 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
                 std::to_string(m) + " has none there; expected: another method, or scene.constraint.impedance");
     scene.constraint.impedance = deviceCopy("impedance", z);
   }
+  // Blocks meet with their sides, which are the outlines but for arcs and parts of a file's mesh.
+  scene.constraint.outline_rows = scene.constraint.outline_rows && scene.kinematics != Kinematics::Lagrangian;
   if (scene.constraint.short_segments.extent(0) == 0 && scene.kinematics == Kinematics::Xfem)
     scene.constraint.short_segments = deviceCopy("short_segments", shortSegments(scene, laws));
   if (scene.kinematics == Kinematics::Xfem)

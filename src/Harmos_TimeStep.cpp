@@ -176,8 +176,9 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
   if (work.keeps_pressure)
     stress.pressure = work.pressure;
   std::vector<RigidBody> const bodies_n = s.bodies;
-  std::vector<Shape> const outlines =
-      scene.kinematics == Kinematics::Xfem ? presentShapes(scene, s.bodies) : std::vector<Shape>();
+  std::vector<Shape> const outlines = scene.kinematics == Kinematics::Single || scene.rigid_shape.empty()
+                                          ? std::vector<Shape>()
+                                          : presentShapes(scene, s.bodies);
   for (;; dt *= 0.5, ++report.repeats)
   {
     kick = 0.5 * (s.last_dt + dt);

@@ -40,7 +40,7 @@ struct Scene
   TargetMesh target_mesh; // empty: the remap goes back to where the cycle began
   BoundaryConditions boundary;
   View<Material *> materials;
-  std::vector<Shape> rigid_shape; // by rigid body, in its pose at the start
+  std::vector<Shape> rigid_shape; // by rigid body, in its pose at the start; lagrangian: none where not known
   std::vector<RigidBody> rigid_start;
   LagrangeOptions lagrange;
   ReconstructionOptions reconstruction;

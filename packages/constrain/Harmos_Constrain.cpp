@@ -199,7 +199,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
     arrays = kept->arrays;
   }
   BodyTable table = buildBodyTable(bodies, num_materials, arrays);
-  table.outlined = !outline.empty() && options.method == ConstraintMethod::Multipliers;
+  table.outlined = options.outline_rows && !outline.empty() && options.method == ConstraintMethod::Multipliers;
   table.surfaces = rigidSurfaces(outline, arrays);
   BodyTable const table_n = withBodies(table, bodies_n, arrays);
   bool const presses = options.fluid.extent(0) > 0 && stress.pressure.extent(0) > 0;

@@ -74,7 +74,7 @@ struct ConstraintOptions
   double penalty = 1.0;     // Penalty, Nitsche: traction over impedance times velocity
   View<double *> impedance; // materials: density times longitudinal wave speed [kg/(m^2 s)], 0: rigid
   MultiplierMethod solver = MultiplierMethod::ProjectedNewton;
-  bool warm_start = false; // rows with multipliers of their own: begin with the last cycle's forces
+  bool warm_start = false;              // rows with multipliers of their own: begin with the last cycle's forces
   View<PairInteraction **> interaction; // (materials, materials), symmetric
   double tolerance = 1e-8;              // of max(largest predicted |G v|, 1e-6 speed_scale)
   int max_iterations = 1000;
@@ -84,6 +84,8 @@ struct ConstraintOptions
   View<int *> fluid;         // materials: 1 where its pressure acts on all of its outline (no strength, Kept);
                              // extent 0: none
   double exposed_face = 0.5; // least exposed part of a cell face that carries a row
+  bool outline_rows = true;  // Multipliers: contact of rigid bodies with each other and with walls by their outlines,
+                             // where those are known; false: by segments (set by startCycle: lagrangian)
 };
 
 } // namespace Harmos

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Body-fitted meshes: blocks with arcs and grading, Gmsh files, what they refuse, and a run that says where it folds."""
-from math import cos, pi, sin
+from math import cos, pi, sin, sqrt
 
 from harness import check, clean, harmos, run, scratch_folder
 from shocks import surface_radii
@@ -49,10 +49,10 @@ def ring(version):
     return text + "$EndElements\n"
 
 
-def from_file(text, settings, expect=0):
+def from_file(text, settings, expect=0, part=PART):
     folder = scratch_folder()
     (folder / "shell.msh").write_text(text)
-    return harmos(DECK, {**settings, "mesh/file": folder / "shell.msh", "bodies/shell": PART}, expect=expect)
+    return harmos(DECK, {**settings, "mesh/file": folder / "shell.msh", "bodies/shell": part}, expect=expect)
 
 
 def test_block_with_arcs_stops_at_verney_s_radius():
@@ -82,6 +82,27 @@ def test_graded_cells_keep_the_body():
     # ten cells, the last twice the first: the smallest is 0.690 of the mean
     check("first time step, against the smallest cell", abs(first[1] / first[0] / 0.690 - 1.0), 0.05)
     clean(even, graded)
+
+
+# A rigid block with arcs once had the mass of its straight sides, and a rigid part of a file ended the program.
+def test_rigid_blocks_weigh_what_their_cells_do():
+    hard, corner, sides = "{eos: rigid, density: 1000.0}", 0.05 * sqrt(0.5), 40
+    points = [s * corner for s in (-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0)]
+    scene = {**SHORT, "materials/beryllium": hard, "boundaries": "{left: {type: outflow}, bottom: {type: outflow}}",
+             "mesh": "{x: {from: -0.1, to: 0.1, cells: 40}, y: {from: -0.1, to: 0.1, cells: 40}}"}
+    r = harmos(DECK, {**scene, "bodies/shell": f"{{material: beryllium, shape: polygon, points: {points}, cells: [10, 10], arc_radii: [0.05, 0.05, 0.05, 0.05], "
+                                               "motion: free, angular_velocity: 100.0}"})
+    area = 0.5 * sides * 0.05**2 * sin(2.0 * pi / sides)
+    inertia = 0.5 * area * 0.05**2 * (1.0 - 2.0 / 3.0 * sin(pi / sides) ** 2)
+    check("disc of four arcs: mass", abs(r.last("mass") / (1000.0 * area) - 1.0), 1e-12)
+    check("its kinetic energy as it turns", abs(r.last("kinetic_energy") / (0.5 * 1000.0 * inertia * 100.0**2) - 1.0), 1e-12)
+    clean(r)
+    part = "{material: beryllium, shape: mesh part, part: shell, motion: free, velocity: [3.0, 0.0]}"
+    r = from_file(ring("2.2"), {**SHORT, "materials/beryllium": hard}, part=part)
+    area = 0.5 * ANGULAR * sin(0.5 * pi / ANGULAR) * (0.1**2 - 0.08**2)
+    check("part of a file: mass", abs(r.last("mass") / (1000.0 * area) - 1.0), 1e-12)
+    check("part of a file: momentum", abs(r.last("momentum_x") / (3000.0 * area) - 1.0), 1e-12)
+    clean(r)
 
 
 def refused(settings, words, text=None):
