@@ -13,32 +13,43 @@ namespace Harmos
 static_assert(std::is_standard_layout<Ledger>::value && sizeof(Ledger) % sizeof(double) == 0,
               "a ledger is an array of doubles");
 
+namespace
+{
+
+/// What is no number stays.
+void raise(double &largest, double value)
+{
+  if (!std::isnan(largest) && !(value <= largest))
+    largest = value;
+}
+
+} // namespace
+
 void Ledger::noteErrors(double mass_error, double momentum_error, double energy_error, double energy,
                         double speed_momentum)
 {
-  largest_energy = std::max(largest_energy, std::fabs(energy));
-  largest_speed_momentum = std::max(largest_speed_momentum, speed_momentum);
-  largest_mass_error = std::max(largest_mass_error, mass_error);
-  largest_momentum_error = std::max(largest_momentum_error, momentum_error);
-  largest_energy_error = std::max(largest_energy_error, std::fabs(energy_error));
+  raise(largest_energy, std::fabs(energy));
+  raise(largest_speed_momentum, speed_momentum);
+  raise(largest_mass_error, mass_error);
+  raise(largest_momentum_error, momentum_error);
+  raise(largest_energy_error, std::fabs(energy_error));
 }
 
 double Ledger::momentumError() const
 {
-  return largest_speed_momentum > 0.0 ? largest_momentum_error / largest_speed_momentum : 0.0;
+  return largest_speed_momentum != 0.0 ? largest_momentum_error / largest_speed_momentum : 0.0;
 }
 
 double Ledger::energyError() const
 {
-  return largest_energy > 0.0 ? largest_energy_error / largest_energy : 0.0;
+  return largest_energy != 0.0 ? largest_energy_error / largest_energy : 0.0;
 }
 
 void Ledger::noteAngularMomentum(double angular_momentum, double moment)
 {
-  largest_moment = std::max(largest_moment, moment);
-  if (largest_moment > 0.0)
-    largest_angular_drift =
-        std::max(largest_angular_drift, std::fabs(angular_momentum - angular_momentum0) / largest_moment);
+  raise(largest_moment, moment);
+  if (largest_moment != 0.0)
+    raise(largest_angular_drift, std::fabs(angular_momentum - angular_momentum0) / largest_moment);
 }
 
 void Ledger::noteOverlap(double volume, double largest, Vector2 const &place)

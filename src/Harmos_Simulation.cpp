@@ -156,7 +156,9 @@ void checkCycle(Run const &run, CycleReport const &report)
 {
   std::string cause;
   UpdateReport const &u = report.update;
-  if (report.crossing_cell >= 0)
+  if (std::isnan(report.constraint.residual))
+    cause = "the impulses of contact are not numbers";
+  else if (report.crossing_cell >= 0)
     cause = "the prescribed field carries material through a side of the mesh: " +
             placeOf(run, report.crossing_cell, report.crossing_material);
   else if (u.inverted > 0)
@@ -259,11 +261,12 @@ void warnOfGain(Run &run)
   Ledger const &l = run.ledger;
   if (!(-l.contact_loss > sizeable * l.largest_energy))
     return;
-  char text[240];
+  char text[320];
   std::snprintf(
       text, sizeof text,
       "contact gave energy, %.2e (contact_loss) beside %.2e that the scene had at most: what it moved is not "
-      "to be trusted. Gas that is squeezed to remnants between bodies does that, and penalties that are too stiff",
+      "to be trusted. Gas that is squeezed to remnants between bodies does that, penalties that are too stiff, and "
+      "friction with restitution at corners",
       -l.contact_loss, l.largest_energy);
   warn(run, text);
 }

@@ -119,6 +119,16 @@ std::vector<int> pressingFluids(Scene const &scene, std::vector<Material> const 
   return fluid;
 }
 
+/// By boundary number: 1 where it is a contact wall.
+std::vector<int> contactWalls(Scene const &scene)
+{
+  auto const boundary = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.boundary.boundary);
+  std::vector<int> wall;
+  for (std::size_t b = 0; b < boundary.extent(0); ++b)
+    wall.push_back(boundary(b).kind == BoundaryKind::ContactWall ? 1 : 0);
+  return wall;
+}
+
 } // namespace
 
 ReconstructionReport startCycle(Scene &scene, CycleState &s)
@@ -143,6 +153,8 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   scene.constraint.outline_rows = scene.constraint.outline_rows && scene.kinematics != Kinematics::Lagrangian;
   if (scene.constraint.short_segments.extent(0) == 0 && scene.kinematics == Kinematics::Xfem)
     scene.constraint.short_segments = deviceCopy("short_segments", shortSegments(scene, laws));
+  if (scene.reconstruction.wall.extent(0) == 0)
+    scene.reconstruction.wall = deviceCopy("wall", contactWalls(scene));
   if (scene.kinematics == Kinematics::Xfem)
   {
     std::vector<int> const fluid = pressingFluids(scene, laws);

@@ -7,6 +7,7 @@
 #include "Harmos_RigidMotion.hpp"
 #include "Harmos_TargetMesh.hpp"
 
+#include <Harmos_LumpedForces.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_StateExchange.hpp>
 
@@ -123,8 +124,15 @@ PredictionSums accelerate(Scene &scene, CycleState &s, double dt, double kick)
   LagrangeOptions options = scene.lagrange;
   options.energy_lag = 0.5 * dt; // of the step that lies behind, which the one ahead stands for
   if (scene.kinematics != Kinematics::Lagrangian)
-    return computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options,
-                                   kick, s.work);
+  {
+    PredictionSums const sums = computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary,
+                                                        scene.materials, options, kick, s.work);
+    bool const lumps = s.work.keeps_pressure && addLumpedForces(scene.mesh, s.pairs, s.state, s.regions, scene.boundary,
+                                                                scene.materials, options, s.work);
+    return lumps ? predictVelocities(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials,
+                                     options, kick, s.work)
+                 : sums;
+  }
   computeCornerForces(scene.mesh, s.pairs, s.state, scene.materials, options, s.work);
   addSubzonalForces(scene.mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
                     scene.lagrange.subzonal_pressure, s.work);

@@ -109,7 +109,9 @@ struct ConstraintReport
 /// G v >= -e s - (1 - e) max(s, gap/dt), so that for e = 1 nothing is taken, and for no e anything given (its gap does
 /// not bound the speed: what opened in the last step may lie as void elsewhere in the cell). So does one that bears
 /// though it was not about to touch, since what others' impulses move strikes there: the impulses are found anew with
-/// it. Bodies in lasting contact, s = 0 without a gap, feel no difference.
+/// it. Bodies in lasting contact, s = 0 without a gap, feel no difference. With friction, where normal and tangential
+/// motion of a corner are coupled, Newton's and Coulomb's laws together may give energy (Kane & Levinson, Dynamics
+/// (1985)).
 ///
 /// Rows of whose velocity along n less than a thousandth is left to move ask for nothing (ContactSystem); bonded rows
 /// give way by bonded_compliance, rows that rub by rubbing_compliance.

@@ -62,8 +62,8 @@ PackedRows packedRows(View<int *> const &offset, int total, int width, WorkArray
 ///
 /// Slave is the side with the smaller cells (by a fifth or more), else the one with the lower material number. No row:
 /// on segments shorter than shortest_segment (but where short_segments keeps them), on cell faces exposed by less than
-/// exposed_face, between driven bodies, between sides that share their dof nodes, and where the segment's own normal is
-/// over 45 degrees off the fitted one.
+/// exposed_face (but along walls, straight rigid edges and fluids), between driven bodies, between sides that share
+/// their dof nodes, and where the segment's own normal is over 45 degrees off the fitted one.
 ///
 /// Where the stress of one side acts over what it fills (ConstraintOptions::short_segments), and both sides end in one
 /// cell, the weights of the row are those of the volume that the segment sweeps (edgeWeights), over the part w of the

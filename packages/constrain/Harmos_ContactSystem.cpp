@@ -162,7 +162,7 @@ KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Mo
 constexpr double least_movable_part = 1e-3;
 
 /// How much of a row's velocity along direction k its own nodes and bodies can change: for each side one, less what
-/// node conditions hold; none for driven bodies and walls.
+/// node conditions hold; none for driven bodies and walls, and of a free one about an axis what moves it along that.
 KOKKOS_INLINE_FUNCTION double movablePart(ContactSystem const &s, ContactRow const &row, int i, int k)
 {
   Vector2 const d = s.direction(i, k);
@@ -170,7 +170,10 @@ KOKKOS_INLINE_FUNCTION double movablePart(ContactSystem const &s, ContactRow con
   for (int side = 0; side < 2; ++side)
   {
     if ((side == 0 ? row.body_a : row.body_b) != -1)
-      part += s.freeBody(i, side) >= 0 ? 1.0 : 0.0;
+    {
+      int const body = s.freeBody(i, side);
+      part += body < 0 ? 0.0 : s.body_inverse_mass(body, 0) > 0.0 ? 1.0 : Math::fabs(d[1]);
+    }
     else
       for (int c = 4 * side; c < 4 * side + 4; ++c)
         if (s.dof(i, c) >= 0)
@@ -243,7 +246,8 @@ KOKKOS_INLINE_FUNCTION double reachOf(ContactSystem const &s, int dof, Vector2 c
 
 /// Row sums of |G M^-1 P G^T| over the deformable dofs: they bound its spectrum in the metric of the diagonal
 /// (Gershgorin). Where node conditions leave nothing free to move, the sum without them: the impulse stays bounded. A
-/// row between rigid bodies has no deformable dofs: its own diagonal entry serves.
+/// row between rigid bodies has no deformable dofs: its own diagonal entry serves, or where a body about an axis cannot
+/// move so what it would be if it could.
 /// \param if_alike Out: the sum if both sides moved as little as the heavier one; where one of them moves, its own.
 KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, double &if_alike)
 {
@@ -265,14 +269,18 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, dou
   if_alike = least > 0.0 ? 2.0 * least : most;
   if (unconditioned > 0.0)
     return sum > 1e-12 * unconditioned ? sum : unconditioned;
+  double if_it_could = 0.0;
   for (int side = 0; side < 2; ++side)
-    for (int c = 0; c < 3; ++c)
+  {
+    int const body = s.freeBody(row, side);
+    for (int c = 0; body >= 0 && c < 3; ++c)
     {
-      int const body = s.freeBody(row, side);
       double const j = s.bodyJacobian(row, side, k, c);
-      sum += body >= 0 ? j * j * s.body_inverse_mass(body, c) : 0.0;
+      sum += j * j * s.body_inverse_mass(body, c);
     }
-  return sum;
+    if_it_could += body >= 0 ? s.body_inverse_mass(body, 1) : 0.0;
+  }
+  return sum > 1e-12 * if_it_could ? sum : if_it_could;
 }
 
 } // namespace

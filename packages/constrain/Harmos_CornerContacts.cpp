@@ -35,10 +35,7 @@ struct CornerFinder
   KOKKOS_INLINE_FUNCTION bool isSolid(int material) const { return material >= 0 && !bearing.presses(material); }
 
   /// Whether a segment is a step between the lines of two cells rather than an edge of its body.
-  KOKKOS_INLINE_FUNCTION bool isStep(InterfaceSegment const &s) const
-  {
-    return s.face >= 0 && s.exposed < options.exposed_face;
-  }
+  KOKKOS_INLINE_FUNCTION bool isStep(InterfaceSegment const &s) const { return exposesLittle(s, options.exposed_face); }
 
   KOKKOS_INLINE_FUNCTION bool touchesAnother(int i) const { return touches(segment(i), hit(i)); }
 

@@ -36,6 +36,12 @@ struct InterfaceSegment
   int parts;    // the piece that this is a part of is so many times as long
 };
 
+/// Whether a segment is a small part of a cell face, as steps between the lines of two cells are.
+KOKKOS_INLINE_FUNCTION bool exposesLittle(InterfaceSegment const &s, double least_exposed)
+{
+  return s.face >= 0 && s.exposed < least_exposed;
+}
+
 /// Ends of a segment: 0 before its midpoint along the outline of its region, which is counter-clockwise, 1 behind it.
 KOKKOS_INLINE_FUNCTION Vector2 endOf(InterfaceSegment const &s, int end)
 {

@@ -53,6 +53,12 @@ struct RowBuilder
     return bonded.at(a.point, a.cell_size, a.material, b.material);
   }
 
+  /// Whether one of two sides is a fluid whose pressure acts on all of its outline.
+  KOKKOS_INLINE_FUNCTION bool isPressed(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    return bearing.isPressed(a) || bearing.isPressed(b);
+  }
+
   /// Whether the rows between two sides come from their outlines (Harmos_OutlineRows.hpp).
   KOKKOS_INLINE_FUNCTION bool meetByOutline(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
@@ -90,12 +96,12 @@ struct RowBuilder
   KOKKOS_INLINE_FUNCTION bool mayCarryRow(int i) const
   {
     InterfaceSegment const &a = segment(i);
-    if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0 ||
-        (a.face >= 0 && a.exposed < options.exposed_face))
+    if (a.material < 0 || hit(i).segment < 0 || mesh.cell_depth(a.cell) != 0)
       return false;
     InterfaceSegment const &b = segment(hit(i).segment);
-    if (!isSlave(a, b) || (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) ||
-        meetByOutline(a, b) || corners.isBorne(segment, i, b.material) ||
+    if ((exposesLittle(a, options.exposed_face) && !isPressed(a, b) && !liesOnEdge(a, b)) || !isSlave(a, b) ||
+        (bodies.driven(bodyOf(a.material)) && bodies.driven(bodyOf(b.material))) || meetByOutline(a, b) ||
+        corners.isBorne(segment, i, b.material) ||
         (touches(a, hit(i)) && corners.isBorne(segment, hit(i).segment, a.material)))
       return false;
     return b.material < 0 || haveOwnNodes(a);
@@ -125,13 +131,32 @@ struct RowBuilder
   KOKKOS_INLINE_FUNCTION Vector2 rowNormal(InterfaceSegment const &a, int facing_it) const
   {
     InterfaceSegment const &b = segment(facing_it);
-    bool const pressed = bearing.isPressed(a) || bearing.isPressed(b);
+    bool const pressed = isPressed(a, b);
     Vector2 n = exactNormal(a, b);
     if (n[0] == 0.0 && n[1] == 0.0)
       n = contactNormal(segment, facing, options.shortest_segment, a, facing_it, pressed);
     if (dot(a.normal, n) >= fit_least_cosine)
       return n;
     return pressed ? a.normal : Vector2{0.0, 0.0};
+  }
+
+  /// Whether a segment of a cell face lies along the wall or the straight edge of a rigid body that it meets.
+  KOKKOS_INLINE_FUNCTION bool liesOnEdge(InterfaceSegment const &a, InterfaceSegment const &b) const
+  {
+    constexpr double along = 0.9999; // cosine
+    return a.face >= 0 && dot(a.normal, exactNormal(a, b)) >= along;
+  }
+
+  /// Whether a segment of a cell face lies along an interface that follows the mesh there, and is no step: then it has
+  /// a row however small a part of the face it is; and however short at walls, edges and between fluids (beside round
+  /// solids short ones would be too many, and gas stick to them). \param n The row's normal.
+  KOKKOS_INLINE_FUNCTION bool liesOnFace(InterfaceSegment const &a, InterfaceSegment const &b, Vector2 const &n,
+                                         bool is_short) const
+  {
+    constexpr double along = 0.99; // cosine
+    bool const of_a = bearing.isPressed(a), of_b = bearing.isPressed(b);
+    return a.face >= 0 && dot(a.normal, n) >= along &&
+           (liesOnEdge(a, b) || (of_a && of_b) || (!is_short && (of_a || of_b)));
   }
 
   KOKKOS_INLINE_FUNCTION SideMotion motionOf(InterfaceSegment const &s) const
@@ -144,29 +169,6 @@ struct RowBuilder
                                                Vector2 const &point, double gap)
   {
     return dot(normal, a.at(point) - b.at(point + gap * normal));
-  }
-
-  /// Bound of closing() for deformable sides and points within 1.5 cells of their cells: the absolute values of shape
-  /// functions add to at most 16 there.
-  KOKKOS_INLINE_FUNCTION double mostClosing(SideMotion const &a, SideMotion const &b, Vector2 const &normal) const
-  {
-    constexpr double beyond = 8.0; // half of the sum
-    if (a.body != -1 || b.body != -1)
-      return 1e300;
-    double mean = 0.0, range = 0.0;
-    for (int side = 0; side < 2; ++side)
-    {
-      double low = 1e300, high = -1e300;
-      for (Vector2 const &v : (side == 0 ? a : b).velocity)
-      {
-        double const along = dot(normal, v);
-        low = Math::min(low, along);
-        high = Math::max(high, along);
-      }
-      mean += (side == 0 ? 0.5 : -0.5) * (low + high);
-      range += high - low;
-    }
-    return mean + beyond * range;
   }
 
   /// Whether in this step an end of a segment would go through what it faces while its middle is held.
@@ -202,9 +204,8 @@ struct RowBuilder
     InterfaceSegment const &b = segment(to.segment);
     double const h = a.cell_size;
     bool const fitted = a.face >= 0 && mesh.face_neighbour(a.cell, a.face) < 0;
-    if (to.gap > touching_gap * h || a.parts * a.length > longest * h || fitted || b.material < 0 ||
-        bearing.isPressed(a) || bearing.isPressed(b) || (dt > 0.0 && areBonded(a, b)) ||
-        touchingLength(facing, a, b.material) > few)
+    if (to.gap > touching_gap * h || a.parts * a.length > longest * h || fitted || b.material < 0 || isPressed(a, b) ||
+        (dt > 0.0 && areBonded(a, b)) || touchingLength(facing, a, b.material) > few)
       return to;
     return {to.segment, Math::max(to.gap, h * curvedGap(bins, a, b.material, normal)), to.cosine};
   }
@@ -231,7 +232,7 @@ struct RowBuilder
     if (!mayCarryRow(i))
       return;
     JoinedSegments::Line line;
-    rows.joined = joinedSegments().find(i, line);
+    rows.joined = !exposesLittle(segment(i), options.exposed_face) && joinedSegments().find(i, line);
     if (!rows.joined)
     {
       planAlong(segment(i), hit(i), i, rows);
@@ -268,11 +269,14 @@ struct RowBuilder
   /// The rows of segment i along `a`: the segment, or the line that it is a piece of.
   KOKKOS_INLINE_FUNCTION void planAlong(InterfaceSegment const &a, RayHit const &to, int i, PlannedRows &rows) const
   {
-    if (isTooShort(a, segment(to.segment)))
+    InterfaceSegment const &b = segment(to.segment);
+    bool const too_short = isTooShort(a, b);
+    if (too_short && a.face < 0)
       return;
     rows.hit[0] = to;
-    rows.normal[0] = rowNormal(a, to.segment);
-    if (rows.normal[0][0] == 0.0 && rows.normal[0][1] == 0.0)
+    Vector2 const n = rows.normal[0] = rowNormal(a, to.segment);
+    if ((n[0] == 0.0 && n[1] == 0.0) ||
+        ((too_short || exposesLittle(a, options.exposed_face)) && !liesOnFace(a, b, n, too_short)))
       return;
     rows.count = 1;
     if (endGoesThrough(a, to))

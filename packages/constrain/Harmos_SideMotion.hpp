@@ -64,6 +64,29 @@ KOKKOS_INLINE_FUNCTION double closedInStep(double gap, double way, double cell_s
   return Math::min(gap, Math::max(way, 0.0) + part * gap);
 }
 
+/// Bound of the speed at which a point of one side approaches the other along a normal, for deformable sides and points
+/// within 1.5 cells of their cells: the absolute values of shape functions add to at most 16 there.
+KOKKOS_INLINE_FUNCTION double mostClosing(SideMotion const &a, SideMotion const &b, Vector2 const &normal)
+{
+  constexpr double beyond = 8.0; // half of the sum
+  if (a.body != -1 || b.body != -1)
+    return 1e300;
+  double mean = 0.0, range = 0.0;
+  for (int side = 0; side < 2; ++side)
+  {
+    double low = 1e300, high = -1e300;
+    for (Vector2 const &v : (side == 0 ? a : b).velocity)
+    {
+      double const along = dot(normal, v);
+      low = Math::min(low, along);
+      high = Math::max(high, along);
+    }
+    mean += (side == 0 ? 0.5 : -0.5) * (low + high);
+    range += high - low;
+  }
+  return mean + beyond * range;
+}
+
 } // namespace Harmos
 
 #endif

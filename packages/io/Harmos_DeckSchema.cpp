@@ -77,7 +77,8 @@ void addBoundaries(ParameterList &boundaries)
     add(list.sublist("type = contact wall"), "friction", 0.0, number(not_negative),
         "Coulomb's coefficient of the wall");
     add(list.sublist("type = contact wall"), "restitution", 0.0, number(between(0.0, 1.0)),
-        "part of the closing speed that bodies part with from the wall; 1: the impact loses no energy");
+        "part of the closing speed that bodies part with from the wall; 1: the impact loses no energy (with friction "
+        "corners that strike may gain some)");
     ParameterList &inflow = list.sublist("type = inflow");
     add(inflow, "body", std::string(), required(rulesOf(KeyType::Name)), "body whose material flows in");
     add(inflow, "velocity", pair(0.0, 0.0), required(numbers(2, 2, "m/s")), "velocity, into the mesh");
@@ -176,7 +177,8 @@ void addInteractions(ParameterList &list)
     add(friction, "coefficient", 0.0, required(number(positive)), "Coulomb's: tangential over normal force at most");
     for (char const *kind : {"sliding", "friction"})
       add(where.sublist(key + " = " + kind), "restitution", 0.0, number(between(0.0, 1.0)),
-          "part of the closing speed that surfaces part with when they touch; 1: the impact loses no energy");
+          "part of the closing speed that surfaces part with when they touch; 1: the impact loses no energy (with "
+          "friction corners that strike may gain some)");
     ParameterList &bonded = where.sublist(key + " = bonded");
     for (char const *way : {"tensile", "shear"})
       add(bonded, std::string(way) + "_strength", 0.0, optional(number(positive, "Pa"), "without limit"),
@@ -262,7 +264,8 @@ void addNumerics(ParameterList &list)
     add(on_segments, "shortest_segment", constraint.shortest_segment, number(between(0.0, 1.0)),
         "interface segments shorter than this part of a cell carry no multiplier, and are moved as straight edges");
     add(on_segments, "exposed_face", constraint.exposed_face, number(between(0.0, 1.0)),
-        "least exposed part of a cell face that carries a multiplier");
+        "least exposed part of a cell face that carries a multiplier, but where it lies along a wall, a straight rigid "
+        "edge or a fluid");
   }
 
   RemapOptions const remap;

@@ -9,6 +9,7 @@ namespace Harmos
 {
 
 /// What one body fills of a cell's vertex neighbours, to be compared with lines of the cell that are continued there.
+/// Beyond a contact wall, where no body is, images of the cells along it stand for those that the mesh lacks.
 class BodyAround
 {
 public:
@@ -28,6 +29,20 @@ public:
       quad_[j] = unitQuadrilateral(field.mesh, components, cell);
       quad_volume_[j] = Harmos::volume(quad_[j], components.weight);
       fraction_[j] = setFraction(field, components, 1u << body, cell);
+    }
+    Quadrilateral const own = unitQuadrilateral(field.mesh, components, components.cell);
+    for (int k = 0; k < 4; ++k)
+    {
+      if (!isContactWall(field, components.cell, k))
+        continue;
+      Plane2 wall = edgeLine(own[k], own[(k + 1) % 4]);
+      wall.offset /= norm(wall.normal);
+      wall.normal = normalised(wall.normal);
+      int const inside = count;
+      addImage(own, wall);
+      for (int j = 0; j < inside; ++j)
+        if (j + first < neighbours.offset(components.cell + 1) && isAtWall(field, neighbours.item(first + j)))
+          addImage(quad_[j], wall);
     }
   }
 
@@ -102,6 +117,27 @@ public:
   KOKKOS_INLINE_FUNCTION double volumeOf(int j) const { return quad_volume_[j]; }
 
 private:
+  /// An empty cell beyond a line, where this one is not beyond it, but along it.
+  KOKKOS_INLINE_FUNCTION void addImage(Quadrilateral const &of, Plane2 const &line)
+  {
+    constexpr double along = 1e-6; // [cells]
+    int on_line = 0;
+    Quadrilateral image;
+    for (int k = 4; k-- > 0;)
+    {
+      double const distance = line.distance(of[k]);
+      on_line += Math::fabs(distance) < along ? 1 : 0;
+      image.push(of[k] - (2.0 * distance) * line.normal);
+    }
+    double const size = Harmos::volume(image, components_.weight);
+    if (on_line < 2 || count == most_neighbours || !(size > 0.0))
+      return;
+    quad_[count] = image;
+    quad_volume_[count] = size;
+    fraction_[count++] = 0.0;
+    ++all_;
+  }
+
   /// Part of neighbour j behind all lines.
   KOKKOS_INLINE_FUNCTION double partBehind(int j, Plane2 const *line, int lines) const
   {

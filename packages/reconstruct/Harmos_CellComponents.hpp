@@ -22,7 +22,24 @@ struct ReconstructionField
   View<double *[2]> centroid; // read where centroids are used
   View<int *> exact = {};     // materials: 1 where volumes and centroids are those of the body's shape; extent 0: none
   View<int *> fluid = {};     // materials: 1 where it has no strength; extent 0: none
+  View<int *> wall = {};      // boundaries: 1 where it is a contact wall; extent 0: none
 };
+
+/// Whether a face of a cell is a contact wall.
+KOKKOS_INLINE_FUNCTION bool isContactWall(ReconstructionField const &field, int cell, int face)
+{
+  if (field.wall.extent(0) == 0 || field.mesh.face_neighbour(cell, face) >= 0)
+    return false;
+  int const boundary = field.mesh.face_boundary(cell, face);
+  return boundary >= 0 && field.wall(boundary) == 1;
+}
+
+/// Whether some face of it is.
+KOKKOS_INLINE_FUNCTION bool isAtWall(ReconstructionField const &field, int cell)
+{
+  return isContactWall(field, cell, 0) || isContactWall(field, cell, 1) || isContactWall(field, cell, 2) ||
+         isContactWall(field, cell, 3);
+}
 
 /// The components of a mixed cell (its materials, ascending, then void where there is some) in the cell's own
 /// coordinates xi = (x - corner) / size, size^2 = cell area: there the cell has unit area and digits stay. Its weighted

@@ -12,6 +12,19 @@ namespace Harmos
 KOKKOS_INLINE_FUNCTION double straightMisfit(ReconstructionField const &field, CellComponents const &components,
                                              int body, Region const &polygon, Vector2 const &normal)
 {
+  if (isAtWall(field, components.cell)) // beyond which the line may be missed as well
+  {
+    double const volume = components.volume[body], open = components.volume[components.count - 1];
+    Plane2 const line = partBehind(polygon, normal, volume, open, components.weight).line;
+    BodyAround const around(field, components, body);
+    double sum = 0.0;
+    for (int j = 0; j < around.count; ++j)
+    {
+      double const miss = around.miss(j, &line, 1);
+      sum += miss * miss;
+    }
+    return sum / Math::max(1, around.count);
+  }
   CellNeighbours const neighbours(field, components);
   FractionDifference const set{1u << body, 0u};
   Detail::LineFitProblem problem{
@@ -154,8 +167,8 @@ HARMOS_LARGE_FUNCTION CornerCell exactCornerCell(ReconstructionField const &fiel
   }
   if (!(cell.error <= exact) && edges == CornerEdges::BentElsewhere && nearest.error <= near_bent * one_line.error &&
       nearest.shorterEdge() >= shortest_bent && !components.isExact(1u << body) &&
-      !isAtBoundary(field, components.cell) && mayHaveStraightEdges(field, components) &&
-      othersAround(field, components))
+      mayHaveStraightEdges(field, components) &&
+      (isAtBoundary(field, components.cell) ? isAtWall(field, components.cell) : othersAround(field, components)))
     cell = nearest;
   else if (!(cell.error <= exact))
   {

@@ -47,7 +47,7 @@ enum class CornerEdges
   Straight,     // an error of 1e-6 of the straight line's at most
   Bent,         // what presses the corner may bend them: 1e-3
   BentElsewhere // straight, or, of a solid that is not rigid and alone here, another body in a cell around, within the
-                // mesh, bent and none shorter than a tenth of a cell
+                // mesh, or at a contact wall, bent and none shorter than a tenth of a cell
 };
 
 /// Which corner suits the body's centroid c and the neighbours best: least

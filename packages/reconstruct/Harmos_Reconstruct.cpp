@@ -338,7 +338,7 @@ FilledRegions cutCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairSta
                        FilledRegions const &before, ReconstructionOptions const &options, ReconstructionReport &report)
 {
   FilledRegions const regions = listMixedCells(mesh, pairs);
-  ReconstructionField const field{mesh, pairs, state.record, state.centroid, options.exact, options.fluid};
+  ReconstructionField const field{mesh, pairs, state.record, state.centroid, options.exact, options.fluid, options.wall};
   View<CellStatus *> const status(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::status"),
                                   regions.num_mixed_cells);
   Kokkos::parallel_for(

@@ -31,6 +31,8 @@ struct ReconstructionOptions
   /// (embeddedCornerPlan): a pressure acts on chords that are not there; its neighbours tell no order (threeBodyPlan,
   /// bodyFirstPlan). Extent 0: none.
   View<int *> fluid = {};
+  /// By boundary number, 1: a contact wall, which presses corners as another body does. Extent 0: none.
+  View<int *> wall = {};
 };
 
 struct ReconstructionReport

@@ -22,6 +22,18 @@ ROD = "taylor_rod_axisymmetric/deck.yaml"
 QUIET = {"output/fields/every_time": 0.0, "output/fields/at_end": "false"}
 
 
+# Its rows with the ring ask for what it cannot do, radial motion: they had no diagonal, and all velocities became NaN.
+def test_a_free_plunger_beside_a_ring_leaves_others_alone():
+    for solver in "projected newton", "conjugate gradients", "row sums":
+        fixed = harmos(DECKS / "plunger.yaml", {"bodies/plunger/motion": "fixed", "numerics/constraint": f"{{solver: {solver}}}"})
+        r = harmos(DECKS / "plunger.yaml", {"numerics/constraint": f"{{solver: {solver}}}"})
+        check(f"{solver}: energy ledger", r.summary["energy_error"], 1e-10)
+        check("unconverged cycles", r.summary["unconverged_cycles"], 0)
+        check("the plunger's momentum", abs(r.last("plunger.momentum_y")), 0.0)
+        check("momentum of a block, against that beside a fixed plunger", abs(r.last("a.momentum_y") / fixed.last("a.momentum_y") - 1.0), 1e-9)
+        clean(r, fixed)
+
+
 def test_translation_along_the_axis_keeps_masses_volumes_and_pressure():
     r = harmos(DECKS / "ring_translation.yaml")
     exact = {"sphere": 2.0 / 3.0 * 0.27**3, "torus": math.pi * 0.17**2 * 0.6}

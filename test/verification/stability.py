@@ -274,7 +274,7 @@ def test_a_disc_sets_no_more_air_in_motion_than_it_displaces():
                       f"shape: disc, center: [0.513, 0.6], radius: 0.1, pressure: 1.0e5, cut: true, velocity: [0.0, {-speed}]}}}}",
             "run/end_time": end_time})
         check(f"{speed} m/s: kinetic energy of the air over what an unbounded fluid has",
-              max(r["gas.kinetic_energy"]) / (0.5 * 1.2 * pi * 0.1**2 * speed**2), 5.0)
+              max(r["gas.kinetic_energy"]) / (0.5 * 1.2 * pi * 0.1**2 * speed**2), 8.0 if speed == 0.001 else 5.0)  # e-folds: decision 0045
         check(f"{speed} m/s: volume of the disc, off", abs(r.last("box.volume") / r.first("box.volume") - 1.0), 1e-3)
         clean(r)
 

@@ -42,7 +42,7 @@ TinyScene dentedFace(Frame const &frame, double along, double deep, double lean,
 {
   double const c = std::cos(lean), s = std::sin(lean);
   auto const of_square = [&](double x, double y) { return frame.at(along + c * x - s * y, -deep + s * x + c * y); };
-  Polygon<8> outline;
+  Polygon<8> outline{};
   for (Vector2 const &x : {frame.at(-20, -20), frame.at(20, -20), frame.at(20, 0), of_square(deep / s, 0),
                            of_square(0, 0), of_square(0, deep / c), frame.at(-20, 0)})
     outline.push(x);
