@@ -133,8 +133,9 @@ struct ConstraintReport
 /// \param last Forces of the cycle before, from which the solver starts with options.warm_start: `force` of its report.
 /// \param kept Cells with interfaces and work arrays, from cycle to cycle.
 /// \param outline By rigid body, at its present pose: contact between rigid bodies, and of free ones with walls, then
-///                acts where these meet (Harmos_OutlineRows.hpp; options.outline_rows), and that of deformable bodies with them along their
-///                normals (Harmos_RigidSurfaces.hpp). Empty: on segments, along fitted normals, as between all others.
+///                acts where these meet (Harmos_OutlineRows.hpp; options.outline_rows), and that of deformable bodies
+///                with them along their normals (Harmos_RigidSurfaces.hpp). Empty: on segments, along fitted normals,
+///                as between all others.
 /// \return Sums over all ranks. `converged` is false where the tolerance was not reached: the velocities are then those
 ///         of the last iterate, which conserves momentum all the same.
 ///

@@ -2,19 +2,12 @@
 #ifndef HARMOS_JOINED_SEGMENTS_HPP
 #define HARMOS_JOINED_SEGMENTS_HPP
 
+#include <Harmos_Bilinear.hpp>
 #include <Harmos_RayCast.hpp>
 #include <Harmos_SegmentBearing.hpp>
 
 namespace Harmos
 {
-
-/// Whether a point of a cell lies on its face k.
-KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 const &x)
-{
-  constexpr double distance = 1e-6; // in lengths of the face
-  Vector2 const face = q[(k + 1) % 4] - q[k];
-  return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
-}
 
 /// Whether the line of a segment goes on along another one of its cell, behind it (side 1) or before it (0).
 KOKKOS_INLINE_FUNCTION bool goesOnAlong(InterfaceSegment const &a, InterfaceSegment const &b, int side)

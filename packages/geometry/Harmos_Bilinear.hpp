@@ -70,6 +70,14 @@ KOKKOS_INLINE_FUNCTION void shapeFunctionsAt(Quadrilateral const &cell, Vector2 
   shapeFunctions(referenceCoordinates(cell, point), N);
 }
 
+/// Whether a point of a cell lies on its face k.
+KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, int k, Vector2 const &x)
+{
+  constexpr double distance = 1e-6; // in lengths of the face
+  Vector2 const face = q[(k + 1) % 4] - q[k];
+  return Math::fabs(cross(face, x - q[k])) <= distance * dot(face, face);
+}
+
 } // namespace Harmos
 
 #endif

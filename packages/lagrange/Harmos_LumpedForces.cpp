@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_LumpedForces.hpp>
 
+#include <Harmos_Bilinear.hpp>
 #include <Harmos_EquationOfState.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
@@ -50,17 +51,12 @@ struct LumpedForces
   }
 
   /// Whether both ends of an edge lie on one face of the cell.
-  static KOKKOS_INLINE_FUNCTION bool isOnFace(Quadrilateral const &q, Vector2 const &a, Vector2 const &b)
+  static KOKKOS_INLINE_FUNCTION bool liesOnFace(Quadrilateral const &q, Vector2 const &a, Vector2 const &b)
   {
-    constexpr double near = 1e-6;
+    bool lies = false;
     for (int k = 0; k < 4; ++k)
-    {
-      Vector2 const face = q[(k + 1) % 4] - q[k];
-      double const bound = near * dot(face, face);
-      if (Math::fabs(cross(face, a - q[k])) <= bound && Math::fabs(cross(face, b - q[k])) <= bound)
-        return true;
-    }
-    return false;
+      lies = lies || (isOnFace(q, k, a) && isOnFace(q, k, b));
+    return lies;
   }
 
   /// Where a pair's mass is, and along what it may be driven.
@@ -79,7 +75,7 @@ struct LumpedForces
     {
       Vector2 const a = region[i], b = region[region.next(i)], d = b - a;
       double const length = norm(d);
-      if (!(length > 0.0) || isOnFace(q, a, b))
+      if (!(length > 0.0) || liesOnFace(q, a, b))
         continue;
       xx += d[0] * d[0] / length;
       xy += d[0] * d[1] / length;

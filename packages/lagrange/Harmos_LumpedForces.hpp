@@ -24,6 +24,8 @@ namespace Harmos
 /// weights, are in balance with the stress. Where edges inside of the cell have several directions, less:
 /// ((e_1 - e_2) / (e_1 + e_2))^2 of the eigenvalues of sum over edges L n n^T.
 ///
+/// All forces [N/m] (per radian about an axis: [N]). The law is of our own (doc/decisions/0045).
+///
 /// \param work In: corner_force, cut, pressure (keeps_pressure) of all local pairs. Nodes at the rim of the halo do not
 /// have all their cells.
 /// \return Whether there is a fluid in a cut cell: predictVelocities is to follow.
