@@ -132,6 +132,7 @@ void restoreState(Run &run)
   s.dof_nodes = buildDofNodes(run.scene.mesh, run.deck.kinematics, read.record, s.pairs);
   s.state.velocity = dofVelocities(s.pairs, s.dof_nodes, read.corner_velocity);
   s.bodies = scalars.bodies;
+  s.start_density = arrayOf(scalars, "start_density");
   s.time = scalars.time;
   s.cycle = scalars.cycle;
   s.dt = scalars.dt;

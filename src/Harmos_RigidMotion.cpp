@@ -83,6 +83,7 @@ RigidRows const &rigidRows(Scene const &scene, CycleState &state)
   {
     PaintedRows const painted = rigidVolumes(scene.mesh, shapes, materials);
     state.rigid_rows = {painted.offset, painted.material, painted.volume_fraction, painted.centroid};
+    state.rigid_corners = {painted.offset, painted.material, painted.volume_fraction, painted.corner};
     state.rigid_pose = state.bodies;
   }
   return state.rigid_rows;

@@ -302,6 +302,7 @@ std::string RunOutput::checkpoint(Scene const &scene, CycleState const &state, L
   scalars.arrays["ledger"] = ledger.values();
   scalars.arrays["ended"] = {history_due_.regular() ? 0.0 : 1.0, fields_due_.regular() ? 0.0 : 1.0};
   scalars.arrays["tracers"] = tracerValues(state.tracers);
+  scalars.arrays["start_density"] = state.start_density;
   scalars.arrays["bond_tracers"] = tracerValues(state.bond_tracers);
   std::vector<double> bonds;
   for (Bond const &b : state.bonds)

@@ -80,7 +80,6 @@ RigidBody rigidBody(Deck const &deck, BodySpec const &spec, Extent const &extent
   body.centre = extent.centroid;
   double const density = deck.laws[spec.law].law.density0;
   body.mass = density * extent.volume;
-  body.axial = deck.geometry == Geometry::Axisymmetric;
   body.inertia = density * extent.inertia;
   body.angular_velocity = spec.angular_velocity;
   body.velocity = spec.velocity + spec.angular_velocity * perpendicular(body.centre - spec.shape.reference());

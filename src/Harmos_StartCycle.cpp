@@ -189,13 +189,17 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
   }
   if (s.bodies.empty())
     s.bodies = scene.rigid_start;
+  for (RigidBody &body : s.bodies)
+    body.axial = scene.mesh.geometry == Geometry::Axisymmetric;
   setRigidVelocities(scene, s);
   if (scene.prescribed.kind != FieldKind::None)
     setPrescribedVelocities(scene, s);
 
   prepareWork(s.pairs, s.dof_nodes, s.work);
   computeNodeAltitudes(scene.mesh, s.work);
-  s.work.largest_density = deviceCopy("largest_density", largestDensities(scene, s, laws));
+  if (s.start_density.empty())
+    s.start_density = largestDensities(scene, s, laws);
+  s.work.largest_density = deviceCopy("largest_density", s.start_density);
   computeDofMass(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.materials, s.work);
   s.limit = stableTimeStep(scene.mesh, s.pairs, s.state, scene.materials, scene.lagrange, s.work);
   s.dt = scene.max_dt;

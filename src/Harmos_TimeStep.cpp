@@ -140,6 +140,14 @@ PredictionSums accelerate(Scene &scene, CycleState &s, double dt, double kick)
                            s.work);
 }
 
+/// The scene's options with the rigid bodies' corners at the poses of the last `rigidRows`.
+ReconstructionOptions withCorners(Scene const &scene, CycleState const &s)
+{
+  ReconstructionOptions options = scene.reconstruction;
+  options.corners = s.rigid_corners;
+  return options;
+}
+
 } // namespace
 
 PointField pointField(Scene const &scene, CycleState const &s)
@@ -149,7 +157,9 @@ PointField pointField(Scene const &scene, CycleState const &s)
 
 void reconstructState(Scene const &scene, CycleState &s, ReconstructionReport &report)
 {
-  s.regions = reconstruct(scene.mesh, s.pairs, s.state, scene.reconstruction, report);
+  if (scene.kinematics != Kinematics::Lagrangian)
+    rigidRows(scene, s);
+  s.regions = reconstruct(scene.mesh, s.pairs, s.state, withCorners(scene, s), report);
 }
 
 CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
@@ -251,7 +261,7 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     if (closes || report.failure.fractions_changed)
     {
       PhaseTimer timer("reconstruct", times.reconstruct);
-      s.regions = refill(mesh, s.pairs, s.state, s.regions, scene.reconstruction, report.reconstruction);
+      s.regions = refill(mesh, s.pairs, s.state, s.regions, withCorners(scene, s), report.reconstruction);
     }
     {
       PhaseTimer timer("remap", times.remap);

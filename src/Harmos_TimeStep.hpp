@@ -63,12 +63,14 @@ struct CycleState
   RemapWork remap_work;           // the same
   ConstraintWork constraint_work; // the same
   std::vector<RigidBody> bodies;
-  RigidRows rigid_rows;              // what the bodies fill at
+  RigidRows rigid_rows;              // what the bodies fill,
+  RigidCorners rigid_corners;        // and their corners, at
   std::vector<RigidBody> rigid_pose; // these poses
   std::vector<Tracer> tracers;       // moved with v^{n+1/2}
   std::vector<Bond> bonds;           // of the pairs whose bonds can break; found in the first cycle
   std::vector<Tracer> bond_tracers;  // what moves them
   std::vector<ContactForce> force;   // of the last cycle's rows, where the solver starts from them
+  std::vector<double> start_density; // by material, the largest of its law and of the start; a restart keeps it
   double time = 0.0;                 // [s], of the records; velocities are half a step behind
   double dt = 0.0;                   // of the next cycle [s]
   double last_dt = 0.0;              // of the last cycle, 0 before the first: velocities are half of it behind [s]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_Borrowed.hpp>
+#include <Harmos_BridgedRegion.hpp>
 #include <Harmos_EdgePieces.hpp>
 #include <Harmos_InterfaceCells.hpp>
 #include <Harmos_InterfaceSegments.hpp>
@@ -293,7 +294,7 @@ struct SegmentFinder
         if (face >= 0 && isHidden(cell, face, pairs.material(pair)))
           continue;
         Edge const edge = edgeBetween(a, b);
-        if (edge.length > frame.tolerance)
+        if (edge.length > frame.tolerance && !(face < 0 && isBridge(region, i)))
           count += edgeSegments(pair, edge, face, frame, blank, count, first + count);
       }
     }

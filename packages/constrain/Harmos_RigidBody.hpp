@@ -21,7 +21,7 @@ struct RigidBody
 {
   int material = -1;
   RigidMotion motion = RigidMotion::Fixed;
-  bool axial = false;   // moves along y alone: rings about the axis of an axisymmetric mesh
+  bool axial = false;   // moves along y alone: rings about an axis (startCycle sets it by the mesh's geometry)
   double mass = 0.0;    // [kg/m], or per radian [kg]
   double inertia = 0.0; // about the centre of mass, per depth [kg m]
   Vector2 centre = {0.0, 0.0};

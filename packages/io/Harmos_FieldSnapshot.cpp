@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Harmos_FieldSnapshot.hpp>
 
+#include <Harmos_BridgedRegion.hpp>
 #include <Harmos_EquationOfState.hpp>
 #include <Harmos_OnHost.hpp>
 
@@ -166,7 +167,7 @@ void addSegments(HostState const &h, int pair, FieldSnapshot::Interface &interfa
   for (int i = 0; i < region.size; ++i)
   {
     Vector2 const a = region[i], b = region[region.next(i)];
-    if (norm(b - a) <= tolerance)
+    if (norm(b - a) <= tolerance || isBridge(region, i))
       continue;
     parts.clear();
     for (auto const &[other, material] : others)

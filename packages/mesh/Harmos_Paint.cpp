@@ -140,9 +140,11 @@ struct RigidFillings
   std::vector<int> cell, material;
   std::vector<double> fraction;
   std::vector<Vector2> centroid;
+  std::vector<OutlineCorner> corner;
 
-  void push(int in_cell, int of_material, double part, Vector2 const &at)
+  void push(int in_cell, int of_material, double part, Vector2 const &at, OutlineCorner const &its_corner = {})
   {
+    corner.push_back(its_corner);
     cell.push_back(in_cell);
     material.push_back(of_material);
     fraction.push_back(part);
@@ -185,7 +187,9 @@ RigidFillings fillRigid(CandidateCells const &candidates, Geometry geometry, std
     for (int const i : present)
       parts.push_back({i, shapes[i].intersectionMoments(q, geometry), false});
     for (Filling const &filling : fillingsOf(q, geometry, parts, materials))
-      rows.push(cell(c), filling.material, filling.fraction, filling.centroid);
+      rows.push(cell(c), filling.material, filling.fraction, filling.centroid,
+                filling.body.size() == 1 ? outlineCorner(q, geometry, shapes[filling.body[0]], filling.fraction)
+                                         : OutlineCorner());
   }
   return rows;
 }
@@ -318,7 +322,8 @@ PaintedRows rigidVolumes(Mesh const &mesh, std::vector<Shape> const &shapes, std
   std::size_t const count = rows.cell.size();
   PaintedRows result{offsetsOf(rows.cell, mesh.num_cells), View<int *>("Harmos::rigid::material", count),
                      View<double *>("Harmos::rigid::volume_fraction", count),
-                     View<double *[2]>("Harmos::rigid::centroid", count)};
+                     View<double *[2]>("Harmos::rigid::centroid", count),
+                     deviceCopy("Harmos::rigid::corner", rows.corner)};
   auto const material = Kokkos::create_mirror_view(result.material);
   auto const fraction = Kokkos::create_mirror_view(result.volume_fraction);
   auto const centroid = Kokkos::create_mirror_view(result.centroid);

@@ -3,6 +3,7 @@
 #define HARMOS_PAINT_HPP
 
 #include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_OutlineCorner.hpp>
 #include <Harmos_Shape.hpp>
 
 #include <string>
@@ -84,6 +85,7 @@ struct PaintedRows
   View<int *> material; // items
   View<double *> volume_fraction;
   View<double *[2]> centroid; // of the filled part
+  View<OutlineCorner *> corner;
 };
 
 /// Volume fractions and centroids of rigid bodies at their current poses, with the rules of `paint` (fractions below

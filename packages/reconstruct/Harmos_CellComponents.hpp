@@ -3,6 +3,7 @@
 #define HARMOS_CELL_COMPONENTS_HPP
 
 #include <Harmos_CellMaterialPairs.hpp>
+#include <Harmos_OutlineCorner.hpp>
 
 namespace Harmos
 {
@@ -23,6 +24,7 @@ struct ReconstructionField
   View<int *> exact = {};     // materials: 1 where volumes and centroids are those of the body's shape; extent 0: none
   View<int *> fluid = {};     // materials: 1 where it has no strength; extent 0: none
   View<int *> wall = {};      // boundaries: 1 where it is a contact wall; extent 0: none
+  RigidCorners corners = {};
 };
 
 /// Whether a face of a cell is a contact wall.
@@ -179,6 +181,20 @@ HARMOS_LARGE_FUNCTION CellComponents cellComponents(ReconstructionField const &f
     }
   }
   return c;
+}
+
+/// The corner that component k has by its outline; none where it does not fill what that leaves, under another body.
+KOKKOS_INLINE_FUNCTION OutlineCorner outlineCorner(ReconstructionField const &field, CellComponents const &components,
+                                                   int k)
+{
+  constexpr double tolerance = 1e-9; // of the cell
+  RigidCorners const &rows = field.corners;
+  if (rows.offset.extent(0) > 0)
+    for (int r = rows.offset(components.cell); r < rows.offset(components.cell + 1); ++r)
+      if (rows.material(r) == components.material[k] &&
+          Math::fabs(rows.volume_fraction(r) - components.volume[k]) < tolerance)
+        return rows.corner(r);
+  return {};
 }
 
 /// Volume fraction in any cell of those materials (and void) that make up a set of components.

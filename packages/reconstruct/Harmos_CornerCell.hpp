@@ -2,6 +2,7 @@
 #ifndef HARMOS_CORNER_CELL_HPP
 #define HARMOS_CORNER_CELL_HPP
 
+#include <Harmos_BridgedRegion.hpp>
 #include <Harmos_CornerProblem.hpp>
 #include <Harmos_RemovalPlan.hpp>
 
@@ -223,6 +224,36 @@ HARMOS_LARGE_FUNCTION Region aroundCorner(Division const &one, Division const &t
   for (int i = 1; i < second.size; ++i)
     around.push(second[(shared + i) % second.size]);
   return around;
+}
+
+/// What two divisions, the second of the first one's inside, leave of a cell where their lines do not meet in it: two
+/// regions, bridged between vertices that lie on no face of the cell together. Empty where they meet.
+HARMOS_LARGE_FUNCTION Region onBothSides(CellComponents const &components, Division const &one, Division const &two)
+{
+  constexpr double near = 1e-9; // [cells]
+  auto const same = [](Vector2 const &a, Vector2 const &b) { return a[0] == b[0] && a[1] == b[1]; };
+  Region const &first = one.outside, &second = two.outside, &cell = components.polygon;
+  for (int i = 0; i < first.size; ++i)
+    for (int j = 0; j < second.size; ++j)
+      if (same(first[i], second[j]))
+        return {};
+  for (int i = 0; i < first.size; ++i)
+    for (int j = 0; j < second.size; ++j)
+    {
+      bool along = false;
+      for (int k = 0; k < cell.size; ++k)
+      {
+        Plane2 const face = edgeLine(cell[k], cell[cell.next(k)]);
+        double const of_one = norm(face.normal) * near;
+        along =
+            along || (Math::fabs(face.distance(first[i])) < of_one && Math::fabs(face.distance(second[j])) < of_one);
+      }
+      bool const on_chords = (same(first[i], one.chord_begin) || same(first[i], one.chord_end)) &&
+                             (same(second[j], two.chord_begin) || same(second[j], two.chord_end));
+      if (on_chords && !along)
+        return bridged(first, i, second, j);
+    }
+  return {};
 }
 
 /// Void, of the cell, that is a film between a body and what lies around its corner.

@@ -114,7 +114,7 @@ HARMOS_LARGE_FUNCTION Vector2 normalBesideDent(CellComponents const &components,
   return normalAt(signChange(slope, low, of_low, high, of_high, tolerance * volume));
 }
 
-/// The regions of a rigid body's corner and of the solid around it.
+/// The regions of a rigid body's corner and of the body around it.
 struct DentedCell
 {
   Region corner, around; // empty where there is no such plan
@@ -137,17 +137,15 @@ HARMOS_LARGE_FUNCTION DentedCell dentedCell(CellComponents const &components, Re
   return cell;
 }
 
-/// A rigid body, and a solid, and maybe void, none a sliver, which the given plan does not leave as they are: where the
-/// rigid one ends in a convex corner two lines leave it exactly as it is, and a third one leaves the void of what is
-/// around it. The solid has a dent where the corner goes in.
+/// A rigid body, and another one, and maybe void, none a sliver, which the given plan does not leave as they are: where
+/// the rigid one lies behind two edges of its outline these leave it exactly as it is, and a third line leaves the void
+/// of what is around it. The other one has a dent where the corner goes in.
 ///
 /// With straight cuts alone a corner that had gone in by a hundredth of a cell was drawn as a chord: contact was lost
 /// (doc/decisions/0038).
 HARMOS_LARGE_FUNCTION RemovalPlan dentedPlan(ReconstructionField const &field, CellComponents const &components,
                                              SliverBounds const &slivers, RemovalPlan const &given)
 {
-  // Of the straight line: of corners 0.04 and more, beside round sides half is below.
-  constexpr double poor_misfit = 0.02;
   bool const open = components.material[components.count - 1] == void_material;
   int const bodies = components.count - (open ? 1 : 0);
   if (components.exact == 0u || bodies != 2 || given.error <= removal_tie)
@@ -155,23 +153,19 @@ HARMOS_LARGE_FUNCTION RemovalPlan dentedPlan(ReconstructionField const &field, C
   for (int body = 0; body < 2; ++body)
   {
     int const other = 1 - body;
-    if (!components.isExact(1u << body) || components.isExact(1u << other) || isFluid(field, components, other) ||
+    if (!components.isExact(1u << body) || components.isExact(1u << other) ||
         components.volume[0] < slivers.of(components, 0) || components.volume[1] < slivers.of(components, 1))
       continue;
-    CellComponents const ordered = bodyAndRest(components, body, other);
-    Vector2 const normal =
-        momentOfFluidLine(components.polygon, ordered.volume[0], ordered.centroid[0], components.weight).normal;
-    CornerCell const corner =
-        exactCornerCell(field, ordered, 0, components.polygon, nullptr, normal, false, poor_misfit);
-    if (corner.error == 1e300)
+    OutlineCorner const corner = outlineCorner(field, components, body);
+    if (corner.kind != CornerKind::Convex)
       continue;
     RemovalPlan plan = given;
     plan.corner = plan.parted = false;
     plan.dented = true;
-    plan.set(0, body, corner.line[0].normal);
-    plan.set(1, other, corner.line[1].normal);
-    plan.void_part = corner.open;
-    plan.error = corner.error;
+    plan.set(0, body, corner.normal[0]);
+    plan.set(1, other, corner.normal[1]);
+    plan.void_part = corner.beyond;
+    plan.error = 0.0;
     if (open)
     {
       CellComponents filled = components;

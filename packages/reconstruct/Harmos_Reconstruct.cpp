@@ -5,6 +5,7 @@
 #include <Harmos_BodyFirstPlan.hpp>
 #include <Harmos_CornerCell.hpp>
 #include <Harmos_DentedPlan.hpp>
+#include <Harmos_NotchedPlan.hpp>
 #include <Harmos_PartedPlan.hpp>
 #include <Harmos_ThreeBodyPlan.hpp>
 
@@ -54,12 +55,18 @@ HARMOS_LARGE_FUNCTION RemovalPlan removalPlan(ReconstructionField const &field, 
     RemovalPlan const plan = fixedPlan(field, components, options.method, slivers, order);
     if (options.method == ReconstructionMethod::Youngs || options.order.extent(0) > 0)
       return plan;
+    RemovalPlan const notched = notchedPlan(field, components, slivers, plan);
+    if (notched.notched)
+      return notched;
     RemovalPlan const dented = dentedPlan(field, components, slivers, plan);
     return dented.dented ? dented : cornerPlan(field, components, slivers, plan);
   }
   if (components.count > max_exhaustive_components)
     return greedyPlan(field, components, slivers);
   RemovalPlan const sequence = bestPlan(field, components, slivers);
+  RemovalPlan const notched = notchedPlan(field, components, slivers, sequence);
+  if (notched.notched)
+    return notched;
   RemovalPlan const corner = cornerPlan(field, components, slivers, sequence);
   if (corner.corner)
     return corner;
@@ -163,6 +170,23 @@ HARMOS_LARGE_FUNCTION CellStatus writeRegions(CellComponents const &components, 
     DentedCell const cell = dentedCell(components, plan);
     write(cell.corner, plan.component[0]);
     write(cell.around, plan.component[1]);
+    forgetCuts();
+    return status;
+  }
+  if (plan.notched)
+  {
+    int const rigid = plan.component[0];
+    NotchedCell const cell = notchedCell(components, plan);
+    write(cell.around, rigid);
+    int number[max_components];
+    CellComponents const inside = componentsIn(components, cell.notch, rigid, number);
+    RemovalPlan shared;
+    shared.count = inside.count;
+    for (int i = 0; i < inside.count; ++i)
+      for (int k = 0; k < inside.count; ++k)
+        if (number[k] == plan.component[i + 1])
+          shared.set(i, k, plan.normal[i + 2]);
+    forEachPart(inside, shared, [&](Region const &part, int k, Vector2 const &) { write(part, number[k]); });
     forgetCuts();
     return status;
   }
@@ -338,7 +362,8 @@ FilledRegions cutCells(Mesh const &mesh, CellMaterialPairs const &pairs, PairSta
                        FilledRegions const &before, ReconstructionOptions const &options, ReconstructionReport &report)
 {
   FilledRegions const regions = listMixedCells(mesh, pairs);
-  ReconstructionField const field{mesh, pairs, state.record, state.centroid, options.exact, options.fluid, options.wall};
+  ReconstructionField const field{mesh,          pairs,         state.record, state.centroid,
+                                  options.exact, options.fluid, options.wall, options.corners};
   View<CellStatus *> const status(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::reconstruct::status"),
                                   regions.num_mixed_cells);
   Kokkos::parallel_for(

@@ -3,6 +3,7 @@
 #define HARMOS_RECONSTRUCT_HPP
 
 #include <Harmos_FilledRegions.hpp>
+#include <Harmos_OutlineCorner.hpp>
 
 namespace Harmos
 {
@@ -33,6 +34,9 @@ struct ReconstructionOptions
   View<int *> fluid = {};
   /// By boundary number, 1: a contact wall, which presses corners as another body does. Extent 0: none.
   View<int *> wall = {};
+  /// The rigid bodies' corners at their poses; without them corners inside of other bodies, and notches, are drawn as
+  /// chords.
+  RigidCorners corners = {};
 };
 
 struct ReconstructionReport

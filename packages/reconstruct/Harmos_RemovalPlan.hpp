@@ -19,8 +19,10 @@ constexpr int max_exhaustive_components = 5; // more are cut off greedily
 /// body, cut off void_part and then the rest of the void (of the other body). Or
 /// void is in two places: void_part of it where the plan has it, the rest between the last two bodies, along their
 /// line. Or component 0 of the plan is a rigid body's corner that the first two normals leave, void_part the first, and
-/// normal[2] leaves component 1 in what is around it. Or the bodies are apart: normal[2 k], which leaves body k, cuts open[k] off the cell, normal[2 k + 1] the rest
-/// of what body k does not fill.
+/// normal[2] leaves component 1 in what is around it. Or component 0 of the plan is a rigid body with a notch: the
+/// first two normals, which leave the notch, cut void_part and then the rest of the body off the cell, and the others
+/// share the notch in sequence, by normal[i + 1] for component i. Or the bodies are apart: normal[2 k], which leaves
+/// body k, cuts open[k] off the cell, normal[2 k + 1] the rest of what body k does not fill.
 struct RemovalPlan
 {
   static constexpr int most_apart = 3; // bodies
@@ -31,7 +33,7 @@ struct RemovalPlan
   double error = 0.0;             // the measure that orders are compared by
   int unfinished = 0;             // searches for an angle, in all orders tried, that met their bound
   bool embedded = false;          // corner: inside of the other body
-  bool parted = false, corner = false, filmed = false, apart = false, dented = false;
+  bool parted = false, corner = false, filmed = false, apart = false, dented = false, notched = false;
   double void_part = 0.0;       // of the cell
   double open[most_apart] = {}; // of the cell
 

@@ -65,6 +65,20 @@ def test_free_rigid_body():
     clean(*goes_on(BALL, cycles=(55, 80)))
 
 
+def test_free_rings_about_an_axis_stay_on_their_radius():
+    falls = "{material: hard, shape: disc, center: [0.3, 0.56], radius: 0.1, motion: free, velocity: [0.0, -3.0]}"
+    cone = "{material: soft, shape: polygon, points: [0.0, 0.02, 0.6, 0.02, 0.6, 0.2, 0.0, 0.45]}"
+    whole, part = goes_on(HERE / "decks/plunger.yaml", {"run/end_time": 1.0, "bodies": f"{{ring: {falls}, cone: {cone}}}"})
+    check("impulse along the axis, of the ring's momentum", -abs(whole.last("ring.momentum_y") / whole.first("ring.momentum_y") - 1.0), -0.01)
+    check("radius, change", abs(whole.last("ring.x_max") - whole.first("ring.x_max")), 0.0)
+    clean(whole, part)
+
+
+def test_gas_that_has_been_squeezed():
+    # What counts as light goes by the densities of the start, not by those of the checkpoint.
+    clean(*goes_on(HERE / "decks/impact_through_air.yaml", cycles=(150, 560), every=50, same_rows=False))
+
+
 def test_solver_that_begins_with_the_last_forces():
     # Squeezed: without pressure the block touches nothing.
     warm = {"bodies/block/pressure": 6.75e8, "numerics/constraint/warm_start": "true", "numerics/constraint/tolerance": 1e-12,

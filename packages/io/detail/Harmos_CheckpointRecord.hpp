@@ -13,7 +13,7 @@ namespace Harmos
 {
 
 /// Number of the layout; raised with every change that an older reader would misread.
-constexpr int checkpoint_format = 3;
+constexpr int checkpoint_format = 4;
 
 /// A sum over elements of a mixed hash of (bits, index) modulo 2^64: any order and any split give the same number, any
 /// change of a bit or an exchange of two elements another one.

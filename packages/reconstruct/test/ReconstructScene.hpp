@@ -189,18 +189,49 @@ inline CellFills bodies(std::vector<Body> const &all, Geometry geometry = Geomet
 /// Filled regions of a scene in which no cell fails and no interface is left unfinished.
 inline FilledRegions reconstructed(Scene const &scene, double sliver = ReconstructionOptions().sliver,
                                    ReconstructionMethod method = ReconstructionMethod::MomentOfFluid,
-                                   View<int *> const &fluid = {}, View<int *> const &exact = {})
+                                   View<int *> const &fluid = {}, View<int *> const &exact = {},
+                                   RigidCorners const &corners = {})
 {
   ReconstructionOptions options;
   options.method = method;
   options.sliver = sliver;
   options.fluid = fluid;
   options.exact = exact;
+  options.corners = corners;
   ReconstructionReport report;
   FilledRegions const regions = reconstruct(scene.mesh, scene.pairs, scene.state, options, report);
   EXPECT_EQ(report.failures, 0);
   EXPECT_EQ(report.unfinished_cells, 0);
   return regions;
+}
+
+/// The sides of a wedge from its tip on: far points, counter-clockwise about it.
+/// \param ahead Where the tip points. \param half_angle Of the wedge. [degrees]
+inline std::vector<Vector2> wedgeSides(Vector2 const &tip, double ahead, double half_angle)
+{
+  constexpr double far = 30.0;
+  return {tip + far * halfPlane(ahead + 180.0 - half_angle, tip).normal,
+          tip + far * halfPlane(ahead + 180.0 + half_angle, tip).normal};
+}
+
+/// Corners of one rigid body's outline.
+inline RigidCorners cornersOf(Mesh const &mesh, std::vector<Vector2> const &outline, int material)
+{
+  Shape const shape = Shape::polygon(outline);
+  auto const x = onHost(mesh.node_position);
+  auto const node = onHost(mesh.cell_node);
+  std::vector<int> offset{0};
+  std::vector<double> fraction;
+  std::vector<OutlineCorner> corner;
+  for (int cell = 0; cell < mesh.num_cells; ++cell)
+  {
+    Quadrilateral const quad = hostQuadrilateral(x, node, cell);
+    fraction.push_back(shape.intersectionMoments(quad, mesh.geometry).volume() / volume(quad, mesh.geometry));
+    corner.push_back(outlineCorner(quad, mesh.geometry, shape, fraction.back()));
+    offset.push_back(cell + 1);
+  }
+  return {deviceCopy("offset", offset), deviceCopy("material", std::vector<int>(mesh.num_cells, material)),
+          deviceCopy("volume_fraction", fraction), deviceCopy("corner", corner)};
 }
 
 inline Plane2 opposite(Plane2 const &plane)
