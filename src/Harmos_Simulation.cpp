@@ -204,6 +204,7 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.energy_error = run.ledger.energyError();
   s.angular_momentum_drift = run.ledger.largest_angular_drift;
   s.unconverged_cycles = std::llround(run.ledger.unconverged_cycles);
+  s.bonds = static_cast<long long>(run.state.bonds.size());
   s.broken_bonds = std::llround(run.ledger.broken_bonds);
   s.merged_fragments = std::llround(run.ledger.merged);
   s.bounded_volumes = std::llround(run.ledger.bounded);
@@ -318,6 +319,35 @@ void reportRange(Run &run, CycleReport const &report, double before)
                 " (" + std::to_string(std::llround(count)) + " pair steps so far)");
 }
 
+/// Pairs whose bonds have a strength are bonded where they touch at the start: a warning for an exception that bonds
+/// nothing, and for the default where it bonds no pair.
+void reportBonds(Run &run)
+{
+  constexpr char const *missing = ": no bond was made; with a strength only what touches at the start, to 1e-3 of a "
+                                  "cell, is bonded";
+  int const n = static_cast<int>(run.deck.fields.size());
+  bool asked = false, made = false;
+  for (int a = 0; a < n; ++a)
+    for (int b = a + 1; b < n; ++b)
+    {
+      PairInteraction const &law = run.deck.interaction[a * n + b];
+      std::string const &name = run.deck.exception[a * n + b];
+      if (law.kind != Interaction::Bonded || !law.strength.limited())
+        continue;
+      bool const bonded = std::any_of(run.state.bonds.begin(), run.state.bonds.end(),
+                                      [&](Bond const &bond) { return bond.material_a == a && bond.material_b == b; });
+      if (name.empty())
+      {
+        asked = true;
+        made = made || bonded;
+      }
+      else if (!bonded)
+        warn(run, "interactions/" + name + missing);
+    }
+  if (asked && !made)
+    warn(run, std::string("interactions/default") + missing);
+}
+
 /// One cycle. What a kernel's host code throws is a failed run; on several ranks main ends them all, since the others
 /// may wait for the one that threw, unless all throw alike.
 CycleReport cycle(Run &run)
@@ -359,7 +389,10 @@ ExitStatus loop(Run &run, RunOutput &output)
   while (!finished(run))
   {
     shortenLastStep(run);
+    bool const first = run.state.cycle == 0;
     report = cycle(run);
+    if (first)
+      reportBonds(run);
     double const out_of_range = run.ledger.out_of_range;
     book(run.ledger, report, *run.exchange);
     checkCycle(run, report);

@@ -158,6 +158,7 @@ struct Deck
   std::vector<FieldSpec> fields; // the material numbers
   int num_rigid_bodies = 0;
   std::vector<PairInteraction> interaction; // (fields, fields), row-major, symmetric
+  std::vector<std::string> exception;       // (fields, fields), the smaller first: the entry that names the pair
 
   LagrangeOptions lagrange;             // with gravity and Courant number
   ReconstructionOptions reconstruction; // without `order`, which is

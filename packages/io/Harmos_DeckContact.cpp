@@ -122,7 +122,8 @@ void convertInteractions(DeckChecker const &check, ParameterList const &list, De
     return law;
   };
   deck.interaction.assign(static_cast<std::size_t>(n) * n, read(list, "default", "interactions/default"));
-  std::vector<std::string> named(static_cast<std::size_t>(n) * n); // the entry that names a pair
+  std::vector<std::string> &named = deck.exception;
+  named.assign(static_cast<std::size_t>(n) * n, "");
   for (auto i = list.begin(); i != list.end(); ++i)
   {
     if (!list.entry(i).isList())

@@ -97,6 +97,7 @@ std::string summaryText(Summary const &s)
   object.add("energy_error", s.energy_error);
   object.add("angular_momentum_drift", s.angular_momentum_drift);
   object.add("unconverged_cycles", s.unconverged_cycles);
+  object.add("bonds", s.bonds);
   object.add("broken_bonds", s.broken_bonds);
   object.add("merged_fragments", s.merged_fragments);
   object.add("bounded_specific_volumes", s.bounded_volumes);

@@ -29,6 +29,7 @@ struct Summary
   double energy_error = 0.0;           // of the total
   double angular_momentum_drift = 0.0; // largest |L - L0| over the largest sum m |x| |v|: walls turn too
   long long unconverged_cycles = 0;
+  long long bonds = 0; // points, of pairs whose bonds have a strength
   long long broken_bonds = 0;
   long long slowed_light_nodes = 0; // over all cycles, moved with their pair
   long long repeated_cycles = 0;    // times a cycle began anew with half the step

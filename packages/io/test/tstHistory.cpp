@@ -212,6 +212,7 @@ TEST(Summary, file_holdsEveryKeyInOrder)
                           "energy_error",
                           "angular_momentum_drift",
                           "unconverged_cycles",
+                          "bonds",
                           "broken_bonds",
                           "merged_fragments",
                           "bounded_specific_volumes",
