@@ -37,6 +37,12 @@ struct ContactRow
 
   /// Whether it holds a node to its own body (Harmos_TipTies.hpp).
   KOKKOS_INLINE_FUNCTION bool isWithinBody() const { return material_a == material_b; }
+  /// Where it acts on side 0 (a) or 1 (b). Two rigid bodies are tied at one point: across gaps that differ from row to
+  /// row no common spin would satisfy them.
+  KOKKOS_INLINE_FUNCTION Vector2 pointOn(int side) const
+  {
+    return side == 0 || (tied && body_a >= 0 && body_b >= 0) ? point : point + gap * normal;
+  }
   /// What the bodies may come closer in the step. An overlap is not pushed out.
   KOKKOS_INLINE_FUNCTION double opening() const { return Math::max(gap, 0.0) + bend; }
 };

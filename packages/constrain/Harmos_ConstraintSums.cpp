@@ -43,7 +43,7 @@ struct RowWorker
       int const body = side == 0 ? r.body_a : r.body_b;
       Vector2 v{0.0, 0.0};
       if (body >= 0)
-        v = mean.body(body).velocityAt(side == 0 ? r.point : r.point + r.gap * r.normal);
+        v = mean.body(body).velocityAt(r.pointOn(side));
       for (int k = 0; k < 4; ++k)
       {
         int const dof = s.dof(i, 4 * side + k);
@@ -139,7 +139,7 @@ void addRow(ContactRow const &row, RowWork const &work, double normal_impulse, b
   {
     int const body = side == 0 ? row.body_a : row.body_b;
     Vector2 const impulse = side == 0 ? -work.impulse : work.impulse;
-    Vector2 const point = side == 0 ? row.point : row.point + row.gap * row.normal;
+    Vector2 const point = row.pointOn(side);
     if (body >= 0)
     {
       RigidBody const &b = bodies[static_cast<std::size_t>(body)];

@@ -210,7 +210,7 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
           out.free_body[side] = body >= 0 ? free_number(body) : -1;
           out.arm[side] = {0.0, 0.0};
           if (body >= 0)
-            out.arm[side] = (side == 0 ? r.point : r.point + r.gap * r.normal) - predicted.bodies.body(body).centre;
+            out.arm[side] = r.pointOn(side) - predicted.bodies.body(body).centre;
         }
         Vector2 const relative = relativeVelocity(r, predicted.velocity, predicted.bodies);
         double const along = dot(r.normal, relative);

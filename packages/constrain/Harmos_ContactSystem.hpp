@@ -135,7 +135,7 @@ KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<doub
     double const sign = side == 0 ? -1.0 : 1.0;
     int const body = side == 0 ? row.body_a : row.body_b;
     if (body >= 0)
-      relative += sign * bodies.body(body).velocityAt(side == 0 ? row.point : row.point + row.gap * row.normal);
+      relative += sign * bodies.body(body).velocityAt(row.pointOn(side));
     for (int k = 0; k < 4; ++k)
     {
       int const dof = side == 0 ? row.dof_a[k] : row.dof_b[k];

@@ -447,8 +447,6 @@ struct RowBuilder
     }
     else
       row.tied = 1;
-    if (row.tied && row.body_a >= 0 && row.body_b >= 0)
-      row.gap = 0.0; // across different gaps no two points of a common spin move alike
   }
 
   KOKKOS_INLINE_FUNCTION ContactRow makeRow(int i, PlannedRows const &rows, int half) const
