@@ -5,6 +5,7 @@
 #include "Harmos_RemapStudySteps.hpp"
 #include "Harmos_TimeStep.hpp"
 
+#include <Harmos_FolderLock.hpp>
 #include <Harmos_HostMesh.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Partition.hpp>
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <memory>
 
 namespace Harmos
 {
@@ -66,15 +68,19 @@ double orderOf(double coarse, double fine, StudyRow const &a, StudyRow const &b)
 }
 
 /// What stands in the way of writing; empty: nothing.
-std::string claimFolder(RunOptions const &options)
+std::string claimFolder(RunOptions const &options, std::unique_ptr<FolderLock> &lock)
 {
   namespace fs = std::filesystem;
   std::error_code error;
+  fs::create_directories(options.directory, error);
+  lock = std::make_unique<FolderLock>(options.directory);
+  if (!lock->holder().empty())
+    return "output directory '" + options.directory + "' is in use by another run (" + lock->holder() +
+           "); expected: another --output, or to wait for its end";
   fs::path const file = fs::path(options.directory) / "remap.csv";
   if (fs::exists(file, error) && !options.force)
     return "output directory '" + options.directory +
            "' holds results; use --force to overwrite them, or another --output";
-  fs::create_directories(options.directory, error);
   if (!std::ofstream(file))
     return "cannot write " + file.string();
   return "";
@@ -114,7 +120,8 @@ ExitStatus studyRemap(RemapDeck const &deck, RunOptions const &options,
     throw DeckError("scheme: comparators run on one rank; expected: swept, intersection or field intersection");
   if (!options.restart.empty())
     throw DeckError("--restart means nothing to remap");
-  std::string const problem = comm->getRank() == 0 ? claimFolder(options) : "";
+  std::unique_ptr<FolderLock> lock;
+  std::string const problem = comm->getRank() == 0 ? claimFolder(options, lock) : "";
   int blocked = problem.empty() ? 0 : 1;
   Teuchos::broadcast(*comm, 0, &blocked);
   if (blocked != 0)

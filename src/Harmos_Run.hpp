@@ -6,6 +6,8 @@
 #include "Harmos_RunOutput.hpp"
 #include "Harmos_Setup.hpp"
 
+#include <Harmos_FolderLock.hpp>
+
 #include <array>
 #include <ctime>
 #include <memory>
@@ -57,6 +59,7 @@ struct Run
   double first_time = 0.0;
   double first_pair_steps = 0.0;
   OutputStart start;
+  std::unique_ptr<FolderLock> lock; // of the folder, on rank 0
 };
 
 /// The words of the lowest rank that has any, on all ranks; empty where none has. Collective.
@@ -98,8 +101,8 @@ void setUp(Run &run);
 /// \throw std::runtime_error if the file cannot be read, or does not belong to the deck.
 void restoreState(Run &run);
 
-/// Make the folder of the results this run's own. Results of an earlier run are never overwritten unawares.
-/// \throw DeckError on all ranks alike.
+/// Make the folder of the results this run's own, which has it to itself until the Run goes. Results of an earlier run
+/// are never overwritten unawares. \throw DeckError on all ranks alike.
 void claimDirectory(Run &run);
 
 } // namespace Harmos

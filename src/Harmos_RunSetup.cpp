@@ -27,29 +27,46 @@ namespace Harmos
 namespace
 {
 
-/// What stands in the way of writing to the run's folder; empty: nothing.
-std::string folderProblem(Run const &run)
+/// What keeps the results of another run, or what bears their names, from being replaced; empty: nothing.
+std::string resultsProblem(Run const &run, std::filesystem::path const &directory)
 {
   namespace fs = std::filesystem;
   std::error_code error;
-  fs::path const directory = run.options.directory;
   std::vector<fs::path> const results = resultFiles(directory);
+  for (fs::path const &file : results)
+    if (fs::is_directory(file, error))
+      return "'" + file.string() + "' is a folder, where a file of results would be; expected: another --output";
   if (!results.empty() && !run.options.force && !run.start.append)
     return "output directory '" + directory.string() + "' holds results (" + results.front().filename().string() +
            "); use --force to overwrite them, or another --output";
-  if (run.start.append && fs::exists(directory / "history.csv", error))
-  {
-    std::vector<std::string> names;
-    for (FieldSpec const &field : run.deck.fields)
-      names.push_back(field.name);
-    std::ifstream history(directory / "history.csv");
-    std::string header;
-    if (!std::getline(history, header) || header != historyHeader(names, run.deck.remap.measure_overlap))
-      return "--restart: the columns of '" + (directory / "history.csv").string() + "' are not those of this run";
-  }
-  fs::create_directories(directory, error);
+  if (!run.start.append || !fs::exists(directory / "history.csv", error))
+    return "";
+  std::vector<std::string> names;
+  for (FieldSpec const &field : run.deck.fields)
+    names.push_back(field.name);
+  std::ifstream history(directory / "history.csv");
+  std::string header;
+  if (!std::getline(history, header) || header != historyHeader(names, run.deck.remap.measure_overlap))
+    return "--restart: the columns of '" + (directory / "history.csv").string() + "' are not those of this run";
+  return "";
+}
+
+/// What stands in the way of writing to the run's folder; empty: nothing. What is in it is looked at when no other run
+/// can change it any more.
+std::string folderProblem(Run &run)
+{
+  std::error_code error;
+  std::filesystem::path const directory = run.options.directory;
+  std::filesystem::create_directories(directory, error);
   if (error)
     return "cannot make output directory '" + directory.string() + "': " + error.message();
+  run.lock = std::make_unique<FolderLock>(directory.string());
+  if (!run.lock->holder().empty())
+    return "output directory '" + directory.string() + "' is in use by another run (" + run.lock->holder() +
+           "); expected: another --output, or to wait for its end";
+  std::string const problem = resultsProblem(run, directory);
+  if (!problem.empty())
+    return problem;
   if (::access(directory.c_str(), W_OK) != 0)
     return "cannot write to output directory '" + directory.string() + "': " + std::strerror(errno);
   return "";
@@ -357,9 +374,9 @@ void claimDirectory(Run &run)
   std::string const problem = firstCause(*run.comm, first ? folderProblem(run) : "");
   if (!problem.empty())
     throw DeckError(problem);
-  // What an earlier run left goes, also what this one would not replace.
-  if (first && !run.start.append)
-    for (fs::path const &file : resultFiles(run.options.directory))
+  // What an earlier run left goes, also what this one would not replace; of one that goes on, how it ended.
+  for (fs::path const &file : first ? resultFiles(run.options.directory) : std::vector<fs::path>())
+    if (!run.start.append || file.filename() == "summary.json")
       fs::remove(file, error);
 }
 

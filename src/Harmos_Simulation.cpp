@@ -177,7 +177,8 @@ void checkCycle(Run const &run, CycleReport const &report)
     failByTimeStep(run);
 }
 
-void writeRunSummary(Run const &run, std::string const &status)
+/// \param together All ranks are here; else this one writes what it knows by itself.
+void writeRunSummary(Run const &run, std::string const &status, bool together)
 {
   Summary s;
   s.status = status;
@@ -190,7 +191,8 @@ void writeRunSummary(Run const &run, std::string const &status)
   getrusage(RUSAGE_SELF, &usage);
   double sums[2] = {static_cast<double>(std::clock() - run.cpu_start) / CLOCKS_PER_SEC,
                     1024.0 * static_cast<double>(usage.ru_maxrss)};
-  run.exchange->sum(sums, 2);
+  if (together)
+    run.exchange->sum(sums, 2);
   s.cpu_seconds = sums[0];
   s.peak_memory_bytes = std::llround(sums[1]);
   s.phases = {{"reconstruct", run.times.reconstruct}, {"lagrange", run.times.lagrange},
@@ -215,7 +217,7 @@ void writeRunSummary(Run const &run, std::string const &status)
   s.gas_heat = run.ledger.gas_heat;
   s.greedy_cells = std::llround(run.ledger.greedy_cells);
   s.unfinished_interfaces = std::llround(run.ledger.unfinished_interfaces);
-  if (run.scene.prescribed.kind != FieldKind::None)
+  if (together && run.scene.prescribed.kind != FieldKind::None)
   {
     s.shape_errors = shapeErrors(run.deck, run.scene, run.state);
     s.shape_errors.emplace_back("restored_volume", run.ledger.restored_volume);
@@ -459,17 +461,12 @@ void checkScene(Deck const &deck, Teuchos::RCP<Teuchos::Comm<int> const> const &
   setUp(run);
 }
 
-ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
+namespace
 {
-  Run run(deck, options, comm);
-  setUp(run);
-  if (run.start.restarted && finished(run))
-  {
-    warn(run, "nothing is left to do: the checkpoint has reached run/end_time or run/max_cycles; no file is touched");
-    return Completed;
-  }
-  claimDirectory(run);
-  RunOutput output(deck, options, comm, run.start, run.warnings);
+
+ExitStatus runWithOutput(Run &run)
+{
+  RunOutput output(run.deck, run.options, run.comm, run.start, run.warnings);
   try
   {
     ExitStatus const status = loop(run, output);
@@ -477,7 +474,7 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
     warnOfOverlaps(run);
     warnOfGain(run);
     run.progress.finish();
-    writeRunSummary(run, status == Completed ? "completed" : "interrupted");
+    writeRunSummary(run, status == Completed ? "completed" : "interrupted", true);
     return status;
   }
   catch (RunFailure const &failure)
@@ -488,10 +485,52 @@ ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Te
     warnOfGain(run);
     run.warnings.push_back(text);
     run.progress.finish();
-    if (comm->getRank() == 0)
+    if (run.comm->getRank() == 0)
       std::fprintf(stderr, "harmos: %s\n", text.c_str());
-    writeRunSummary(run, "failed");
+    writeRunSummary(run, "failed", true);
     return FailedRun;
+  }
+}
+
+/// The summary of a run that ended by an exception, of its output as a rule, as far as the disk takes one. On several
+/// ranks the others may be anywhere: the first does it, if it was there.
+void summariseByItself(Run &run, std::string const &cause)
+{
+  if (run.comm->getRank() != 0)
+    return;
+  run.progress.finish();
+  run.warnings.push_back("failed: " + cause);
+  run.lock->giveRoom();
+  try
+  {
+    writeRunSummary(run, "failed", run.comm->getSize() == 1);
+  }
+  catch (std::exception const &)
+  {
+    // What main tells says why.
+  }
+}
+
+} // namespace
+
+ExitStatus simulate(Deck const &deck, RunOptions const &options, Teuchos::RCP<Teuchos::Comm<int> const> const &comm)
+{
+  Run run(deck, options, comm);
+  setUp(run);
+  if (run.start.restarted && finished(run))
+  {
+    warn(run, "nothing is left to do: the checkpoint has reached run/end_time or run/max_cycles; no file is touched");
+    return Completed;
+  }
+  claimDirectory(run);
+  try
+  {
+    return runWithOutput(run);
+  }
+  catch (std::exception const &error)
+  {
+    summariseByItself(run, error.what());
+    throw;
   }
 }
 

@@ -4,8 +4,10 @@ import json
 import math
 import pathlib
 import re
+import resource
 import subprocess
 import tempfile
+import time
 
 import harness
 from compare import newest_checkpoint
@@ -112,6 +114,70 @@ def test_restart_into_a_folder_of_other_results_needs_force():
     rows = (b.directory / "history.csv").read_text().splitlines()
     assert [row.split(",")[0] for row in rows] == ["cycle", "4", "5"]
     clean(a, b)
+
+
+def begin(*arguments, **settings):
+    """A run that has begun to write into `settings['into']`, without an end."""
+    into = settings["into"]
+    command = [harness.HARMOS, "run", str(BALL), "--output", str(into), "--set", "run/end_time=10.0", *map(str, arguments)]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, restore_signals=False)  # SIGXFSZ stays ignored
+    deadline = time.time() + 60
+    while not (into / "history.csv").exists() or len((into / "history.csv").read_text().splitlines()) < 4:
+        assert process.poll() is None and time.time() < deadline, "the run does not begin"
+        time.sleep(0.01)
+    return process
+
+
+def test_a_folder_takes_one_run_at_a_time():
+    with tempfile.TemporaryDirectory() as scratch:
+        out = pathlib.Path(scratch) / "w"
+        out.mkdir()
+        first = begin("--set", "output/checkpoint/every_cycles=2", into=out)
+        try:
+            for ranks, words in ((1, ["--force"]), (2, ["--force"]), (1, ["--restart", out]), (1, [])):
+                second = program("run", BALL, "--output", out, *words, ranks=ranks)
+                lines = [line for line in second.stderr.splitlines() if line.startswith("harmos:")]
+                assert second.returncode == 2 and len(lines) == 1 and f"is in use by another run (process {first.pid} on " in lines[0], second.stderr
+            assert first.poll() is None
+            before = (out / "history.csv").read_text().splitlines()
+            assert [line.split(",")[0] for line in before[1:-1]] == [str(i) for i in range(len(before) - 2)]
+        finally:
+            first.kill()
+            first.wait()
+        print("  " + lines[0].replace(scratch, "..."))
+        # What a killed run leaves locks nothing.
+        assert (out / ".lock").exists()
+        assert program("run", BALL, "--output", out, "--force", "--set", "run/max_cycles=2").returncode == 0
+        assert not (out / ".lock").exists()
+
+
+def test_folders_named_as_results_are_refused_before_anything_is_touched():
+    r = harmos(BALL, {**SHORT, "output/fields/at_end": "true"})
+    (r.directory / "fields_000007.h5/inside").mkdir(parents=True)
+    before = {p.name: p.is_dir() or p.read_bytes() for p in r.directory.iterdir()}
+    again = program("run", BALL, "--output", r.directory, "--force")
+    assert again.returncode == 2 and "fields_000007.h5' is a folder" in again.stderr and len(again.stderr.splitlines()) == 1, again.stderr
+    assert {p.name: p.is_dir() or p.read_bytes() for p in r.directory.iterdir()} == before
+    clean(r)
+
+
+def test_a_run_that_cannot_write_leaves_a_summary():
+    with tempfile.TemporaryDirectory() as scratch:
+        # Files that cannot grow, as on a full disk.
+        out = pathlib.Path(scratch) / "w"
+        process = begin(into=out)
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (16384, 16384))
+        assert process.wait(timeout=60) == 3 and (out / "history.csv").stat().st_size <= 16384
+        summary = json.loads((out / "summary.json").read_text())
+        assert summary["status"] == "failed" and summary["cycles"] > 3 and not (out / ".lock").exists()
+        assert any(w.startswith("failed: cannot append to ") and "history.csv" in w for w in summary["warnings"]), summary["warnings"]
+        for ranks in (1, 2):
+            out = pathlib.Path(scratch) / f"in-the-way-{ranks}"
+            (out / "fields_000001.h5.tmp").mkdir(parents=True)
+            r = program("run", BALL, "--output", out, "--set", "output/fields/every_cycles=2", ranks=ranks)
+            summary = json.loads((out / "summary.json").read_text())
+            assert r.returncode == 3 and (summary["status"], summary["cycles"], summary["ranks"]) == ("failed", 2, ranks), (r.stderr, summary)
+            assert any(w.startswith("failed: ") and "fields_000001.h5.tmp" in w for w in summary["warnings"]), summary["warnings"]
 
 
 def test_an_inverted_cell_stops_the_run_and_keeps_the_last_checkpoint():

@@ -155,8 +155,8 @@ def test_other_number_of_ranks():
     clean(whole, part, r, full)
 
 
-def start(deck, directory, settings, ranks=1):
-    command = [*harness.launcher(ranks), harness.HARMOS, "run", str(harness.EXAMPLE / deck), "--output", str(directory)]
+def start(deck, directory, settings, ranks=1, extra=()):
+    command = [*harness.launcher(ranks), harness.HARMOS, "run", str(harness.EXAMPLE / deck), "--output", str(directory), *extra]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -268,6 +268,21 @@ def test_a_restart_with_nothing_left_to_do_touches_no_file():
         r = harmos(BALL, stop({}, cycles), directory=whole.directory, extra=["--restart", str(newest_checkpoint(whole.directory))])
         assert "nothing is left to do" in r.text and contents(whole.directory) == before, r.text
     clean(whole)
+
+
+def test_a_restart_that_is_killed_has_no_summary_of_the_run_before():
+    part = harmos(BALL, {**stop({}, 20), "output/checkpoint/at_end": "true"})
+    assert part.summary["status"] == "completed"
+    settings = {**stop({}, 0), "run/end_time": 10.0}
+    process = start(BALL, part.directory, settings, extra=["--restart", str(part.directory)])
+    while rows(part.directory) < 25 and process.poll() is None:
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    assert process.returncode == -signal.SIGKILL and not (part.directory / "summary.json").exists()
+    again = harmos(BALL, stop({}, 30), directory=part.directory, extra=["--restart", str(part.directory)])
+    assert again.summary["status"] == "completed" and again.summary["cycles"] == 30
+    clean(again)
 
 
 def test_sigusr1_reaches_all_ranks_through_mpiexec():
