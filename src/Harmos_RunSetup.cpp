@@ -4,6 +4,7 @@
 #include "Harmos_PrescribedCycle.hpp"
 #include "Harmos_TargetMesh.hpp"
 
+#include <Harmos_CellFillings.hpp>
 #include <Harmos_DeckSchema.hpp>
 #include <Harmos_MeshBuilder.hpp>
 #include <Harmos_Partition.hpp>
@@ -115,6 +116,22 @@ Mesh makeLocalMesh(Run &run)
   return mesh;
 }
 
+/// Why a field has no mass.
+std::string whyNothing(Deck const &deck, int field)
+{
+  double area = 0.0;
+  for (BodySpec const &body : deck.bodies)
+    if (body.field == field && body.shape.kind != ShapeKind::MeshPart)
+      area += makeShape(body.shape).area();
+  double const part = area / (deck.x.smallestCell() * deck.y.smallestCell());
+  if (part >= 4.0 * least_fraction) // of the cells around a node
+    return "nothing of it lies inside of the mesh";
+  char text[120];
+  std::snprintf(text, sizeof text, "it fills %.2g of a cell; expected: a body that fills %g of one at least", part,
+                least_fraction);
+  return text;
+}
+
 void startLedger(Run &run)
 {
   Totals const totals = computeTotals(run.scene, run.state, static_cast<int>(run.deck.fields.size()), false);
@@ -127,7 +144,7 @@ void startLedger(Run &run)
   l.noteErrors(0.0, 0.0, 0.0, l.energy0, totals.speed_momentum);
   for (std::size_t m = 0; m < run.deck.fields.size(); ++m)
     if (run.deck.fields[m].rigid_body < 0 && !(totals.material[m].mass > 0.0))
-      throw DeckError("bodies/" + run.deck.fields[m].name + ": nothing of it lies inside of the mesh");
+      throw DeckError("bodies/" + run.deck.fields[m].name + ": " + whyNothing(run.deck, static_cast<int>(m)));
 }
 
 /// A speed at which the squares of the cycle lose all digits. \throw DeckError on all ranks alike.

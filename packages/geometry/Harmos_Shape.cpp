@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -28,6 +29,14 @@ void requireFinite(Vector2 const &x, std::string const &what)
 {
   require(std::isfinite(x[0]) && std::isfinite(x[1]),
           what + " (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ") is not finite");
+}
+
+/// std::to_string would show 0.000000.
+std::string shortText(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
 }
 
 Vector2 turned(Vector2 const &x, double angle)
@@ -94,6 +103,8 @@ Shape Shape::rectangle(Vector2 const &centre, Vector2 const &size, double angle)
   shape.centre = centre;
   for (Vector2 const &corner : {Vector2{-x, -y}, Vector2{x, -y}, Vector2{x, y}, Vector2{-x, y}})
     shape.points.push_back(centre + turned(corner, angle));
+  require(polygonArea(shape.points) > 0.0, "rectangle: its size " + shortText(size[0]) + " x " + shortText(size[1]) +
+                                               " is lost in the digits of its place");
   shape.pieces = {{0, 1, 2, 3}};
   return shape;
 }
@@ -169,6 +180,9 @@ Shape Shape::moved(Vector2 const &displacement, double angle) const
     x = angle == 0.0 ? x + displacement : shape.centre + turned(x - centre, angle);
   if (kind == Kind::HalfPlane)
     shape.normal = turned(normal, angle);
+  // Lines through corners that rounding has made one would leave out nothing.
+  if (!shape.points.empty() && !(polygonArea(shape.points) > 0.0))
+    shape.pieces.clear();
   return shape;
 }
 

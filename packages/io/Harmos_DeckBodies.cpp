@@ -41,6 +41,19 @@ bool reachesMesh(ShapeSpec const &shape, AxisSpec const &x, AxisSpec const &y)
   return low[0] < x.to && high[0] > x.from && low[1] < y.to && high[1] > y.from;
 }
 
+/// Corners that the digits of their place make one bound nothing.
+void refuseLostOutline(DeckChecker const &check, std::string const &path, ShapeSpec const &shape)
+{
+  std::vector<Vector2> const points = outlinePoints(shape);
+  double twice = 0.0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    twice += cross(points[i] - points[0], points[i + 1] - points[0]);
+  bool const rectangle = shape.kind == ShapeKind::Rectangle;
+  check.require(points.empty() || twice > 0.0, keyPath(path, rectangle ? "size" : "points"),
+                (rectangle ? "[" + numberText(shape.size[0]) + ", " + numberText(shape.size[1]) + "] is" : "they are") +
+                    std::string(" lost in the digits of the place; expected: a larger body"));
+}
+
 void convertMotion(DeckChecker const &check, ParameterList const &list, std::string const &path, Deck const &deck,
                    BodySpec &body)
 {
@@ -266,6 +279,7 @@ void convertBodies(DeckChecker const &check, ParameterList const &bodies, Deck &
     ParameterList const &list = bodies.sublist(body.name);
     body.law = requireIndex(check, deck.laws, list.get<std::string>("material"), keyPath(path, "material"), "material");
     body.shape = shapeOf(check, list, path);
+    refuseLostOutline(check, path, body.shape);
     body.velocity = vectorOf(list, "velocity");
     body.angular_velocity = list.get<double>("angular_velocity");
     body.radial_velocity = list.get<double>("radial_velocity");

@@ -70,10 +70,13 @@ void convertMethod(DeckChecker const &check, ParameterList const &list, Deck &de
                                    [](Boundary const &wall) { return wall.restitution > 0.0; });
   check.require(!bounces || method == "multipliers" || method == "nodal", path,
                 "\"" + method + "\" knows no restitution; expected: multipliers or nodal");
-  for (LawSpec const &law : deck.laws)
+  for (BodySpec const &body : deck.bodies)
+  {
+    LawSpec const &law = deck.laws[body.law];
     check.require(!is_explicit || law.rigid || law.law.eos != EosKind::IdealGas, path,
                   "\"" + method + "\" takes its stiffness from the impedance at rest, which the ideal gas " + law.name +
                       " has not; expected: multipliers, nodal or merged");
+  }
   if (method != "nodal" && method != "merged")
     return;
   check.require(deck.kinematics == Kinematics::Xfem, path,

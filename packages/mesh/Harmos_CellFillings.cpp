@@ -10,7 +10,6 @@ namespace Harmos
 namespace
 {
 
-constexpr double least_fraction = 1e-14;
 constexpr double full_tolerance = 1e-13;
 
 /// Fractions of a cell: slivers left out, a sum of nearly one made one, never above one in order of summation.

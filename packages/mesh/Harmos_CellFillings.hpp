@@ -12,6 +12,9 @@
 namespace Harmos
 {
 
+/// Parts that fill less of a cell are left out.
+constexpr double least_fraction = 1e-14;
+
 /// Local cells whose bounding boxes meet one of some boxes.
 struct CandidateCells
 {

@@ -57,6 +57,11 @@ def test_bad_decks_are_one_line_with_the_path_of_the_key():
     refused(["probes/p", "allowed: a name with a map"], "probes/p=[0.1, 0.1]")
 
 
+def test_bodies_too_small_for_their_place_or_their_cell_are_refused():
+    refused(["bodies/plate/size: [1e-17, 1e-17] is lost in the digits of the place"], "bodies/plate/size=[1e-17, 1e-17]")
+    refused(["bodies/plate: it fills ", " of a cell; expected: a body that fills 1e-14 of one at least"], "bodies/plate/size=[1e-9, 1e-9]")
+
+
 def test_overlapping_bodies_are_one_line_on_any_number_of_ranks():
     overlap = "bodies/ball/center=[0.9, 0.5]"
     refused(["cell", "plate", "ball", "overlap"], overlap)

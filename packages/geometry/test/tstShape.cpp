@@ -120,6 +120,14 @@ TEST(Shape, smallShapeWithinACell_isWhole)
   EXPECT_NEAR(0.01, Shape::rectangle({0.5, 0.5}, {0.1, 0.1}).intersectionMoments(cell).volume(), 1e-17);
 }
 
+TEST(Shape, outlineThatRoundingMakesAPoint_fillsNothing)
+{
+  Shape const shape = Shape::polygon({{0, 0}, {1e-17, 0}, {0, 1e-17}}).moved({0.5, 0.5}, 0.0);
+  for (double const x : {0.0, 1.0}) // with the point inside, and beside it
+    EXPECT_EQ(0.0, shape.intersectionMoments(box(x, 0.0, x + 1.0, 1.0)).volume());
+  EXPECT_FALSE(shape.contains({0.25, 0.25}));
+}
+
 TEST(Shape, contains_agreesWithTheOutline)
 {
   Shape const annulus = Shape::annulus({1, 1}, 1.0, 2.0);
@@ -169,6 +177,7 @@ TEST(Shape, outline_preservesTheArea)
 TEST(Shape, badShapes_areRefused)
 {
   EXPECT_THROW(Shape::rectangle({0, 0}, {1, 0}), std::invalid_argument);
+  EXPECT_THROW(Shape::rectangle({0.3, 0.3}, {1e-17, 1e-17}), std::invalid_argument); // all corners are one
   EXPECT_THROW(Shape::disc({0, 0}, -1.0), std::invalid_argument);
   EXPECT_THROW(Shape::disc({0, std::nan("")}, 1.0), std::invalid_argument);
   EXPECT_THROW(Shape::annulus({0, 0}, 2.0, 1.0), std::invalid_argument);

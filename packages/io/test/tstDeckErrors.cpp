@@ -166,6 +166,11 @@ TEST(DeckErrors, ShapesThatCannotBe_areRefused)
   EXPECT_HAS(message({"bodies/patch/points=[0,0,1,1,1,0,0,2]"}), "bodies/patch/points: edges of the polygon cross");
   EXPECT_HAS(message({"bodies/patch/points=[0,0,1,1,1,0,0]"}),
              "bodies/patch/points: 7 numbers; expected: an even number");
+  EXPECT_EQ(
+      message({"bodies/slider/size=[1e-17, 1e-17]", "bodies/slider/shift=[0.3, 0]"}),
+      "deck.yaml: bodies/slider/size: [1e-17, 1e-17] is lost in the digits of the place; expected: a larger body");
+  EXPECT_HAS(message({"bodies/patch/points=[0, 0, 1e-17, 0, 0, 1e-17]", "bodies/patch/shift=[0.3, 0.3]"}),
+             "bodies/patch/points: they are lost in the digits of the place");
   EXPECT_HAS(message({"bodies/ring/center=[20, 0]"}), "bodies/ring: lies wholly outside of the mesh");
   EXPECT_HAS(message({"bodies/slider/shift=[0, 3]"}), "bodies/slider: lies wholly outside of the mesh");
   EXPECT_HAS(message({"bodies/lower/point=[0, -5]"}), "bodies/lower: lies wholly outside of the mesh");
