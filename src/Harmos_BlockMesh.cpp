@@ -112,7 +112,7 @@ public:
     {
       auto const side = std::find(name, name + num_boundary_sides, edge.curve);
       if (side == name + num_boundary_sides)
-        throw DeckError(deck.mesh_file + ": physical curve " + edge.curve +
+        throw DeckError("mesh/file: " + deck.mesh_file + ": physical curve " + edge.curve +
                         " is no boundary; expected: left, right, bottom, top");
       side_[std::minmax(edge.node[0], edge.node[1])] = static_cast<int>(side - name);
     }
@@ -152,8 +152,8 @@ private:
     double const near_axis = 1e-9 * (deck_.x.to - deck_.x.from);
     for (int k = 0; k < 4; ++k)
       if (mesh.node[cell[k]][0] < near_axis && mesh.node[cell[(k + 1) % 4]][0] < near_axis && boundary[k] != Left)
-        throw DeckError(deck_.mesh_file + ": an edge on the axis, at y = " + std::to_string(mesh.node[cell[k]][1]) +
-                        ", belongs to no physical curve left");
+        throw DeckError("mesh/file: " + deck_.mesh_file + ": an edge on the axis, at y = " +
+                        std::to_string(mesh.node[cell[k]][1]) + ", belongs to no physical curve left");
   }
 
   int nodeOf(BodySpec const &spec, int number, HostMesh &mesh)
@@ -267,6 +267,23 @@ Shape wallShape(Deck const &deck, int side)
   return Shape::polygon(corners);
 }
 
+namespace
+{
+
+GmshMesh readMeshFile(Deck const &deck)
+{
+  try
+  {
+    return readGmsh(deck.mesh_file);
+  }
+  catch (std::runtime_error const &error)
+  {
+    throw DeckError(std::string("mesh/file: ") + error.what());
+  }
+}
+
+} // namespace
+
 DeckMesh makeBlockMesh(Deck const &deck)
 {
   DeckMesh whole = makeBlocks(deck);
@@ -275,7 +292,7 @@ DeckMesh makeBlockMesh(Deck const &deck)
     refuseOverlaps(deck, whole);
     return whole;
   }
-  GmshMesh const gmsh = readGmsh(deck.mesh_file);
+  GmshMesh const gmsh = readMeshFile(deck);
   PartMesh parts(deck, gmsh);
   for (std::size_t body = 0; body < deck.bodies.size(); ++body)
     if (deck.bodies[body].shape.kind == ShapeKind::MeshPart)
@@ -286,7 +303,7 @@ DeckMesh makeBlockMesh(Deck const &deck)
   }
   catch (std::runtime_error const &error)
   {
-    throw DeckError(deck.mesh_file + ": " + error.what());
+    throw DeckError("mesh/file: " + deck.mesh_file + ": " + error.what());
   }
   refuseOverlaps(deck, whole);
   return whole;

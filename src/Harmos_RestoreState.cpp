@@ -76,11 +76,14 @@ bool bondsAnew(Deck const &before, Deck const &now)
 }
 
 /// Whether a key is of a rigid body's law: its mass and inertia go on from the checkpoint.
-bool isOfRigidLaw(Deck const &deck, std::string const &path)
+bool isOfRigidBody(Deck const &deck, std::string const &path)
 {
-  return std::any_of(deck.laws.begin(), deck.laws.end(),
-                     [&](LawSpec const &law)
-                     { return law.rigid && path.rfind("materials/" + law.name + "/", 0) == 0; });
+  return std::any_of(deck.bodies.begin(), deck.bodies.end(),
+                     [&](BodySpec const &body)
+                     {
+                       LawSpec const &law = deck.laws[body.law];
+                       return law.rigid && path.rfind("materials/" + law.name + "/", 0) == 0;
+                     });
 }
 
 /// A restart keeps the mesh and the bodies; what else of the physics has changed it names in a warning.
@@ -95,7 +98,7 @@ void compareDecks(Run &run, std::string const &before)
     if (path == "geometry" || begins("bodies/") || (begins("mesh/") && !begins("mesh/smoother")))
       throw std::runtime_error("it was written with another value of " + path +
                                " than the deck's; a restart keeps mesh and bodies");
-    if (isOfRigidLaw(run.deck, path))
+    if (isOfRigidBody(run.deck, path))
       throw std::runtime_error("it was written with another value of " + path +
                                " than the deck's; rigid bodies keep their mass in a restart");
     if (begins("interactions/") && bondsAnew(readDeckText(before, run.options.restart, {}), run.deck))

@@ -320,10 +320,30 @@ void refuseCutRigidBodies(Deck const &deck, Mesh const &mesh)
     }
 }
 
-} // namespace
+/// Of the file, not of the deck.
+class CheckpointError : public DeckError
+{
+public:
+  using DeckError::DeckError;
+};
+
+void restoreCheckpoint(Run &run)
+{
+  try
+  {
+    restoreState(run);
+  }
+  catch (std::exception const &error)
+  {
+    std::string const &file = run.options.restart;
+    std::string const older = isSound(file) ? "" : soundCheckpointBefore(file);
+    throw CheckpointError("--restart " + file + ": " + error.what() +
+                          (older.empty() ? "" : "; sound is the one before, " + older));
+  }
+}
 
 // What one rank alone meets (bodies that overlap in its cells) all ranks throw.
-void setUp(Run &run)
+void prepare(Run &run)
 {
   bool const fresh = run.options.restart.empty();
   std::string cause, part;
@@ -348,16 +368,7 @@ void setUp(Run &run)
   if (!cause.empty())
     throw DeckError(cause);
   if (!fresh)
-  {
-    try
-    {
-      restoreState(run);
-    }
-    catch (std::exception const &error)
-    {
-      throw DeckError("--restart " + run.options.restart + ": " + error.what());
-    }
-  }
+    restoreCheckpoint(run);
   double const restored_dt = run.state.dt;
   ReconstructionReport const reconstruction = startCycle(run.scene, run.state);
   if (!fresh)
@@ -379,6 +390,24 @@ void setUp(Run &run)
     placeTracers(run);
   warnOfLongCells(run);
   warnOfIdleKeys(run);
+}
+
+} // namespace
+
+void setUp(Run &run)
+{
+  try
+  {
+    prepare(run);
+  }
+  catch (CheckpointError const &)
+  {
+    throw;
+  }
+  catch (DeckError const &error)
+  {
+    throw DeckError(run.deck.file + ": " + error.what());
+  }
 }
 
 void claimDirectory(Run &run)

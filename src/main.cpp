@@ -51,6 +51,9 @@ struct Arguments
 /// The checkpoint that --restart names: a file, or the newest in a folder.
 std::string checkpointOf(std::string const &path)
 {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw Harmos::DeckError("--restart " + path + ": there is no such file or folder");
   if (!std::filesystem::is_directory(path))
     return path;
   std::string const newest = Harmos::newestCheckpoint(path);
@@ -84,7 +87,10 @@ Arguments parseArguments(int argc, char **argv)
   {
     if (i + 1 >= argc)
       throw Harmos::DeckError(std::string(argv[i]) + " needs a value");
-    return std::string(argv[++i]);
+    std::string const text = argv[++i];
+    if (text.empty())
+      throw Harmos::DeckError(std::string(argv[i - 1]) + " needs a value; expected: not an empty one");
+    return text;
   };
   for (int i = 1; i < argc; ++i)
   {

@@ -183,4 +183,15 @@ std::string newestCheckpoint(std::string const &directory)
   return found.empty() ? std::string() : found.rbegin()->second;
 }
 
+std::string soundCheckpointBefore(std::string const &path)
+{
+  std::filesystem::path const folder = std::filesystem::path(path).parent_path();
+  long long const cycle = checkpointCycle(path);
+  auto const found = checkpointsIn(folder.empty() ? "." : folder.string());
+  for (auto i = found.rbegin(); i != found.rend(); ++i)
+    if (i->first < cycle && isSound(i->second))
+      return i->second;
+  return "";
+}
+
 } // namespace Harmos

@@ -71,6 +71,12 @@ View<double *[2]> dofVelocities(CellMaterialPairs const &pairs, NodeMaterialPair
 /// The newest checkpoint in a folder, or an empty string.
 std::string newestCheckpoint(std::string const &directory);
 
+/// Whether all of a checkpoint can be read and has its checksums.
+bool isSound(std::string const &path);
+
+/// The newest sound checkpoint beside another one and older than it, or an empty string.
+std::string soundCheckpointBefore(std::string const &path);
+
 } // namespace Harmos
 
 #endif

@@ -78,6 +78,35 @@ void verify(std::string const &path, Hdf5File const &file, std::string const &na
     throw std::runtime_error("checkpoint '" + path + "': " + name + " is damaged (its checksum differs)");
 }
 
+/// The numbers beside the arrays, for one checksum.
+std::vector<long long> rootNumbers(CheckpointScalars const &scalars)
+{
+  return {scalars.cycle, static_cast<long long>(scalars.kinematics)};
+}
+
+template <class T>
+Checksum checksumOf(std::vector<T> const &value)
+{
+  Checksum checksum;
+  checksum.add(value, 0);
+  return checksum;
+}
+
+void writeCheckedText(Hdf5File &file, std::string const &name, std::string const &text)
+{
+  file.writeText(name, text);
+  file.writeAttribute(name, "checksum", checksumOf(std::vector<char>(text.begin(), text.end())).value());
+}
+
+/// Those of version 0.1.0 before they had checksums are taken as they are.
+std::string readCheckedText(std::string const &path, Hdf5File const &file, std::string const &name)
+{
+  std::string const text = file.readText(name);
+  if (file.hasAttribute(name, "checksum"))
+    verify(path, file, name, checksumOf(std::vector<char>(text.begin(), text.end())));
+  return text;
+}
+
 std::vector<double> readShared(std::string const &path, Hdf5File const &file, std::string const &name, int width)
 {
   long long const rows = file.rows(name);
@@ -107,21 +136,23 @@ CheckpointScalars readScalars(std::string const &path, Hdf5File const &file)
   CheckpointScalars scalars;
   scalars.cycle = file.readAttribute<long long>("/", "cycle");
   scalars.kinematics = static_cast<Kinematics>(file.readAttribute<int>("/", "kinematics"));
+  if (file.hasAttribute("/", "checksum"))
+    verify(path, file, "/", checksumOf(rootNumbers(scalars)));
   auto const times = readShared(path, file, "/time_and_steps", 1);
   scalars.time = times.at(0);
   scalars.dt = times.at(1);
   scalars.last_dt = times.at(2);
-  scalars.deck = file.readText("/deck");
-  scalars.version = file.readText("/version");
-  scalars.material_names = splitLines(file.readText("/materials"));
+  scalars.deck = readCheckedText(path, file, "/deck");
+  scalars.version = readCheckedText(path, file, "/version");
+  scalars.material_names = splitLines(readCheckedText(path, file, "/materials"));
   if (file.exists("/warnings")) // not in those of version 0.1.0 before they were kept
-    scalars.warnings = splitLines(file.readText("/warnings"));
+    scalars.warnings = splitLines(readCheckedText(path, file, "/warnings"));
   scalars.bodies = unpackBodies(readShared(path, file, "/bodies", body_width));
-  auto const names = splitLines(file.readText("/ledger_names"));
+  auto const names = splitLines(readCheckedText(path, file, "/ledger_names"));
   auto const values = readShared(path, file, "/ledger", 1);
   for (std::size_t i = 0; i < names.size(); ++i)
     scalars.ledger[names[i]] = values.at(i);
-  for (auto const &name : splitLines(file.readText("/array_names")))
+  for (auto const &name : splitLines(readCheckedText(path, file, "/array_names")))
     scalars.arrays[name] = readShared(path, file, "/arrays/" + name, 1);
   return scalars;
 }
@@ -298,11 +329,12 @@ void writeScalars(Hdf5File &file, MPI_Comm comm, CheckpointScalars const &scalar
 {
   file.writeAttribute("/", "cycle", scalars.cycle);
   file.writeAttribute("/", "kinematics", static_cast<int>(scalars.kinematics));
+  file.writeAttribute("/", "checksum", checksumOf(rootNumbers(scalars)).value());
   writeShared(file, comm, "/time_and_steps", {scalars.time, scalars.dt, scalars.last_dt}, 1);
-  file.writeText("/deck", scalars.deck);
-  file.writeText("/version", scalars.version);
-  file.writeText("/materials", joinLines(scalars.material_names));
-  file.writeText("/warnings", joinLines(scalars.warnings));
+  writeCheckedText(file, "/deck", scalars.deck);
+  writeCheckedText(file, "/version", scalars.version);
+  writeCheckedText(file, "/materials", joinLines(scalars.material_names));
+  writeCheckedText(file, "/warnings", joinLines(scalars.warnings));
   writeShared(file, comm, "/bodies", packBodies(scalars.bodies), body_width);
   std::vector<std::string> names;
   std::vector<double> values;
@@ -311,7 +343,7 @@ void writeScalars(Hdf5File &file, MPI_Comm comm, CheckpointScalars const &scalar
     names.push_back(name);
     values.push_back(value);
   }
-  file.writeText("/ledger_names", joinLines(names));
+  writeCheckedText(file, "/ledger_names", joinLines(names));
   writeShared(file, comm, "/ledger", values, 1);
   names.clear();
   file.createGroup("/arrays");
@@ -320,12 +352,23 @@ void writeScalars(Hdf5File &file, MPI_Comm comm, CheckpointScalars const &scalar
     names.push_back(name);
     writeShared(file, comm, "/arrays/" + name, value, 1);
   }
-  file.writeText("/array_names", joinLines(names));
+  writeCheckedText(file, "/array_names", joinLines(names));
 }
 
 CheckpointScalars readCheckpointScalars(std::string const &path)
 {
-  return readScalars(path, openCheckpoint(path));
+  try
+  {
+    return readScalars(path, openCheckpoint(path));
+  }
+  catch (std::runtime_error const &)
+  {
+    throw;
+  }
+  catch (std::exception const &) // an array is shorter than another says, or too long for the memory
+  {
+    throw std::runtime_error("checkpoint '" + path + "' is damaged");
+  }
 }
 
 CheckpointState readCheckpoint(MPI_Comm comm, std::string const &path, Mesh &mesh)
@@ -340,6 +383,24 @@ CheckpointState readCheckpoint(MPI_Comm comm, std::string const &path, Mesh &mes
     updateVolumes(mesh);
   }
   return state;
+}
+
+bool isSound(std::string const &path)
+{
+  try
+  {
+    readCheckpointScalars(path);
+    Hdf5File const file = openCheckpoint(path);
+    Mesh no_cells;
+    scanPairs(path, file, no_cells);
+    if (file.exists("/nodes"))
+      readNodes(path, file, no_cells);
+    return true;
+  }
+  catch (std::exception const &)
+  {
+    return false;
+  }
 }
 
 } // namespace Harmos

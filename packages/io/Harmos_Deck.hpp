@@ -144,6 +144,7 @@ struct RunSpec
 
 struct Deck
 {
+  std::string file; // as it was named, for messages
   std::string title;
   Kinematics kinematics = Kinematics::Xfem;
   Geometry geometry = Geometry::Planar;

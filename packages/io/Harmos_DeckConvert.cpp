@@ -100,8 +100,10 @@ void convertRemovalOrder(DeckChecker const &check, Teuchos::Array<std::string> c
     return;
   for (std::string const &name : names)
   {
-    int const field =
-        name == "void" ? -1 : requireIndex(check, deck.fields, name, path, "field (a body that joins none) or void");
+    int const field = name == "void" ? -1 : indexOf(deck.fields, name);
+    check.require(name == "void" || field >= 0, path,
+                  "\"" + name + "\" is no field (a body that joins none); expected one of: " +
+                      joined(namesOf(deck.fields)) + ", void");
     auto const &order = deck.removal_order;
     check.require(std::find(order.begin(), order.end(), field) == order.end(), path, "\"" + name + "\" comes twice");
     deck.removal_order.push_back(field);

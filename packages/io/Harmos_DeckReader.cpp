@@ -300,6 +300,7 @@ Deck deckOf(ParameterList const &input, std::string const &file)
 {
   ParameterList const complete = completeDeck(deckSchema(), input, file);
   Deck deck = convertDeck(complete, file);
+  deck.file = file;
   deck.idle_keys = idleKeys(complete, deck);
   return deck;
 }

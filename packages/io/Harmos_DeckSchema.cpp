@@ -198,7 +198,7 @@ void addInteractions(ParameterList &list)
 void addNumerics(ParameterList &list)
 {
   LagrangeOptions const lagrange;
-  add(list, "courant", lagrange.courant, number({0.0, 1.0, true, true}),
+  add(list, "courant", lagrange.courant, number({1e-6, 1.0, false, true}),
       "part of the time in which a wave crosses a cell that a step takes, or less where parts of cut cells or free "
       "edges ask for it");
   add(list, "linear_viscosity", lagrange.linear_viscosity, number(between(0.0, 10.0)), "artificial, in compression");

@@ -62,8 +62,7 @@ public:
       if (!entry->isList())
         completeKey(name, *entry, given, path, result);
       else if (given && !given->isList())
-        fail(keyPath(path, name) + ": " + valueText(*given) + " is no map; expected: a map with the keys " +
-             joined(names(listOf(*entry))));
+        refuseValue(keyPath(path, name), *given, listOf(*entry));
       else
         result.set(name, complete(listOf(*entry), given ? listOf(*given) : ParameterList(), keyPath(path, name)));
     }
@@ -74,6 +73,11 @@ public:
 
 private:
   [[noreturn]] void fail(std::string const &message) const { throw DeckError(file_ + ": " + message); }
+
+  [[noreturn]] void refuseValue(std::string const &key, ParameterEntry const &given, ParameterList const &schema) const
+  {
+    fail(key + ": " + valueText(given) + " is no map; expected: a map with the keys " + joined(names(schema)));
+  }
 
   static std::vector<std::string> names(ParameterList const &schema)
   {
@@ -173,10 +177,13 @@ private:
       for (auto const &item : active.entries)
         allowed.push_back(item.first);
       std::string message = keyPath(path, name) + ": unknown key";
+      std::string const near = nearestWord(name, allowed);
       if (!conditions.empty())
         message = keyPath(path, name) + ": does not belong here, only where " + joined(conditions, " or ");
-      else if (std::string const near = nearestWord(name, allowed); !near.empty())
+      else if (!near.empty())
         message += "; did you mean " + near + "?";
+      else if (active.any)
+        refuseValue(keyPath(path, name), input.entry(i), *active.any);
       if (active.any)
         allowed.push_back(allowed.empty() ? "a name with a map" : "or a name with a map");
       fail(message + "; allowed: " + joined(allowed));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -306,7 +307,7 @@ GmshMesh parseGmsh(std::string const &text, std::string const &file)
 GmshMesh readGmsh(std::string const &file)
 {
   std::ifstream stream(file);
-  if (!stream)
+  if (!stream || std::filesystem::is_directory(file))
     throw std::runtime_error(file + ": cannot be read");
   std::ostringstream text;
   text << stream.rdbuf();

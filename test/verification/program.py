@@ -54,7 +54,7 @@ def test_bad_decks_are_one_line_with_the_path_of_the_key():
     refused(["tracers/lost/position", "void"], "tracers/lost={position: [0.1, 0.1]}")
     refused(["missing.yaml", "cannot be read"], deck=HERE / "missing.yaml")
     refused(["decks", "cannot be read"], deck=HERE / "decks")
-    refused(["probes/p", "allowed: a name with a map"], "probes/p=[0.1, 0.1]")
+    refused(["probes/p: [0.1, 0.1] is no map; expected: a map with the keys position"], "probes/p=[0.1, 0.1]")
 
 
 def test_bodies_too_small_for_their_place_or_their_cell_are_refused():
@@ -67,6 +67,20 @@ def test_overlapping_bodies_are_one_line_on_any_number_of_ranks():
     refused(["cell", "plate", "ball", "overlap"], overlap)
     refused(["cell", "plate", "ball", "overlap"], overlap, ranks=3)
     refused(["run/end_tme"], "run/end_tme=1.0", ranks=3)
+
+
+def test_lines_of_the_set_up_begin_with_the_name_of_the_deck():
+    for words, *sets in ((["bodies: cell ", "overlap"], "bodies/ball/center=[0.9, 0.5]"), (["run/max_dt"], "run/max_dt=1e-16"),
+                         (["tracers/lost"], "tracers/lost={position: [0.1, 0.1]}")):
+        refused([f"harmos: {BALL}: {words[0]}", *words[1:]], *sets)
+    part = "bodies/upper={material: aluminium, shape: mesh part, part: p}"
+    refused([f"harmos: {BLOCKS}: mesh/file: ", "none.msh: cannot be read"], "kinematics=lagrangian", "mesh/file=none.msh", part, deck=BLOCKS)
+
+
+def test_empty_values_of_options_are_refused():
+    for option in ("--output", "--restart", "--set"):
+        r = program("run", BALL, option, "")
+        assert r.returncode == 2 and f"harmos: {option} needs a value" in r.stderr and len(r.stderr.splitlines()) == 1, r.stderr
 
 
 def test_unknown_options_and_commands():

@@ -231,12 +231,33 @@ def test_bad_restart_files_change_nothing():
         assert len(r.text.splitlines()) == 1 and str(file) in r.text, r.text
         print(" ", r.text.strip())
         assert contents(part.directory) == before
+    assert "missing.h5: there is no such file" in harmos(BALL, directory=part.directory, extra=["--restart", str(cases[3])], expect=2).text
     with tempfile.TemporaryDirectory() as empty:
         r = harmos(BALL, stop({}, 40), directory=part.directory, extra=["--restart", empty], expect=2)
         assert f"--restart {empty}: no checkpoint" in r.text and contents(part.directory) == before, r.text
     r = harmos(BALL, {**stop({}, 40), "mesh/x/cells": 41}, directory=part.directory, extra=["--restart", str(good)], expect=2)
     assert "mesh/x/cells" in r.text and contents(part.directory) == before, r.text
     clean(part, other)
+
+
+def test_a_damaged_checkpoint_names_the_sound_one_before_it():
+    part = harmos(BALL, {**stop({}, 20), "output/checkpoint/every_cycles": 10})
+    older, newest = sorted(part.directory.glob("checkpoint_*.h5"))
+    whole = newest.read_bytes()
+    # A value, the deck and the names: a bit of each.
+    for place in (len(whole) // 2, whole.index(b"aluminium"), whole.rindex(b"contact_force\n")):
+        damaged = bytearray(whole)
+        damaged[place] ^= 1
+        newest.write_bytes(damaged)
+        for given in (part.directory, newest):
+            r = harmos(BALL, stop({}, 40), directory=part.directory, extra=["--restart", str(given)], expect=2)
+            assert len(r.text.splitlines()) == 1 and "damaged" in r.text and f"; sound is the one before, {older}" in r.text, r.text
+    print("  " + r.text.strip())
+    # Nothing is wrong with the file where the deck differs.
+    newest.write_bytes(whole)
+    r = harmos(BALL, {**stop({}, 40), "mesh/x/cells": 41}, directory=part.directory, extra=["--restart", str(part.directory)], expect=2)
+    assert "sound" not in r.text, r.text
+    clean(part)
 
 
 def test_mesh_and_bodies_stay_and_other_changes_are_named():
@@ -250,7 +271,8 @@ def test_mesh_and_bodies_stay_and_other_changes_are_named():
     # The ball is rigid: its mass goes on from the checkpoint.
     r = harmos(BALL, {**stop({}, 40), "materials/hard/density": 7000.0}, directory=other, extra=good, expect=2)
     assert "materials/hard/density" in r.text and "keep their mass" in r.text and not other.exists(), r.text
-    r = harmos(BALL, {**stop({}, 40), "materials/aluminium/density": 2701.0}, directory=other, extra=good)
+    # A rigid law that no body has is no mass of any.
+    r = harmos(BALL, {**stop({}, 40), "materials/aluminium/density": 2701.0, "materials/idle": "{eos: rigid, density: 1.0}"}, directory=other, extra=good)
     assert any("materials/aluminium/density" in text for text in r.summary["warnings"]), r.summary["warnings"]
     clean(part, r)
 

@@ -317,6 +317,11 @@ bool Hdf5File::exists(std::string const &name) const
   return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
+bool Hdf5File::hasAttribute(std::string const &object, std::string const &name) const
+{
+  return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
 long long Hdf5File::rows(std::string const &name) const
 {
   if (!exists(name))

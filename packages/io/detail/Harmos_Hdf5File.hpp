@@ -59,6 +59,7 @@ public:
   /// Number of rows of an array; 0 where it does not exist (empty arrays are not written).
   long long rows(std::string const &name) const;
   bool exists(std::string const &name) const;
+  bool hasAttribute(std::string const &object, std::string const &name) const;
 
 private:
   enum class Mode

@@ -94,7 +94,14 @@ TEST(DeckErrors, WrongType_showsValueAndExpectation)
   EXPECT_STARTS(message({"run/end_time={a: 1}"}),
                 "deck.yaml: run/end_time: a map is of the wrong type; expected: number");
   EXPECT_STARTS(message({"run=3"}), "deck.yaml: run: 3 is no map; expected: a map with the keys end_time, max_cycles");
-  EXPECT_STARTS(message({"bodies/slider=3"}), "deck.yaml: bodies/slider: unknown key; allowed: a name with a map");
+  EXPECT_STARTS(message({"bodies/slider=3"}),
+                "deck.yaml: bodies/slider: 3 is no map; expected: a map with the keys material");
+  EXPECT_EQ(message({"probes/a=foo"}),
+            "deck.yaml: probes/a: \"foo\" is no map; expected: a map with the keys position");
+  EXPECT_EQ(message({"interactions/x=3"}),
+            "deck.yaml: interactions/x: 3 is no map; expected: a map with the keys between, and, type");
+  EXPECT_STARTS(message({"interactions/defalt=bonded"}),
+                "deck.yaml: interactions/defalt: unknown key; did you mean default?");
 }
 
 TEST(DeckErrors, NumbersWithoutBound_areNamedAsSuch)
@@ -122,7 +129,7 @@ TEST(DeckErrors, ImpossibleValue_showsTheRange)
   EXPECT_STARTS(message({"materials/copper/density=1e-300"}),
                 "deck.yaml: materials/copper/density: 1e-300 is out of range; expected: number in [1e-30, 1e+30]");
   EXPECT_EQ(message({"numerics/courant=1.5"}),
-            "deck.yaml: numerics/courant: 1.5 is out of range; expected: number in (0, 1)");
+            "deck.yaml: numerics/courant: 1.5 is out of range; expected: number in [1e-06, 1)");
   EXPECT_EQ(message({"numerics/remap/order=4"}),
             "deck.yaml: numerics/remap/order: 4 is out of range; expected: integer in [1, 3]");
   EXPECT_EQ(message({"numerics/remap/order=3", "numerics/remap/hessian=contour"}),
@@ -185,7 +192,9 @@ TEST(DeckErrors, NamesThatDoNotExist_listThoseThatDo)
              "interactions/glue/and: \"nobody\" is no body; expected one of: lower, gas");
   EXPECT_HAS(message({"bodies/slider/join=ring"}),
              "bodies/slider/join: \"ring\" is no earlier body; expected one of: lower, gas");
-  EXPECT_HAS(message({"numerics/reconstruction/removal_order=[ring, patch]"}), "removal_order: \"patch\" is no field");
+  EXPECT_HAS(
+      message({"numerics/reconstruction/removal_order=[ring, patch]"}),
+      "removal_order: \"patch\" is no field (a body that joins none); expected one of: lower, gas, slider, ring, void");
   EXPECT_HAS(message({"numerics/reconstruction/removal_order=[ring, ring]"}), "\"ring\" comes twice");
   EXPECT_HAS(message({"numerics/reconstruction/removal_order=[ring, gas]"}), "\"lower\" is not in it");
   EXPECT_HAS(message({"bodies/void={material: air, shape: disc, center: [0, 0], radius: 0.1, pressure: 1}"}),
