@@ -3,9 +3,12 @@
 
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 import unittest
+import unittest.mock
 import xml.etree.ElementTree as xml
 
 try:
@@ -16,6 +19,9 @@ except ImportError as error:
     sys.exit(f"tstHarmosPlot: {error}; on Debian: apt install python3-matplotlib python3-h5py python3-pil")
 
 PLOT, RUN, OUT = sys.argv[1:4]
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(PLOT))
+import harmos_plot_options as options  # noqa: E402
 
 
 def plot(*arguments):
@@ -59,6 +65,24 @@ class HarmosPlot(unittest.TestCase):
     def test_historyColumns_areDrawn(self):
         self.picture(RUN, "--history", "kinetic_energy", "copper.mass")
 
+    def test_unitsOfTheHistory_arePerRadianAboutAnAxis(self):
+        """The labels, which an SVG file has as comments."""
+        copy = os.path.join(OUT, "axisymmetric")
+        shutil.rmtree(copy, ignore_errors=True)
+        shutil.copytree(RUN, copy)
+        path = os.path.join(OUT, "history.svg")
+        for folder, units in ((RUN, ("kg/m", "J/m", "m²")), (copy, ("kg", "J", "m³"))):
+            if folder == copy:
+                for name in os.listdir(copy):
+                    if name.startswith("fields_0") and name.endswith(".h5"):
+                        with h5py.File(os.path.join(copy, name), "r+") as file:
+                            file.attrs["axisymmetric"] = 1
+            result = plot(folder, "--history", "mass", "kinetic_energy", "copper.volume", "-o", path)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(path, encoding="utf-8") as file:
+                labels = re.findall(r"\[([^\]]+)\] -->", file.read())
+            self.assertEqual([unit for unit in units if not any(label.endswith(unit) for label in labels)], [], labels)
+
     def test_film_hasAPictureForEveryOutput(self):
         path = os.path.join(OUT, "film.gif")
         self.assertEqual(plot(RUN, "--film", path, "--field", "velocity", "--dpi", "50").returncode, 0)
@@ -72,11 +96,32 @@ class HarmosPlot(unittest.TestCase):
                                  ([RUN, "--frame", "7"], "there are 3 frames"),
                                  ([RUN, "--field", "damage"], "no law of the deck can fail"),
                                  ([RUN, "--film", "a.avi"], ".gif or .mp4"),
+                                 ([RUN, "--window", "50", "60", "0", "1"], "nothing is there; the mesh reaches from"),
+                                 ([RUN, *(["--compare", RUN] * 9), "--dpi", "1200"], "pixels across"),
+                                 ([RUN, "-o", "a.foo"], "no such kind of picture; there are"),
                                  ([RUN, "--grey", "lead"], "no such material; there are")):
             result = plot(*arguments)
             self.assertEqual(result.returncode, 2, words)
             self.assertIn(words, result.stderr)
             self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+    def test_optionsThatCannotBeFollowed_areRefused(self):
+        for arguments, words in ((["--film", "a.gif", "--fps", "0"], "--fps 0: expected: at least 1"),
+                                 (["--film", "a.gif", "-o", "a.png"], "-o beside --film"),
+                                 (["--film", "a.gif", "--all"], "--all beside --film"),
+                                 (["--history", "--field", "pressure", "-o", "a.png"], "-o beside --history and --field"),
+                                 (["--frame", "1", "--time", "2"], "--time beside --frame"),
+                                 (["--window", "1", "0", "0", "1"], "X0 below X1"),
+                                 (["--dpi", "0"], "--dpi 0: expected: 10 to 1200"),
+                                 (["--dpi", "100000"], "--dpi 100000: expected: 10 to 1200"),
+                                 (["--field", "pressure", "--range", "5", "1"], "LOW below HIGH"),
+                                 (["--field", "pressure", "--range", "nan", "nan"], "--range nan nan: expected: finite"),
+                                 (["--time", "nan"], "--time nan: expected: finite"),
+                                 (["--outline", "nan"], "--outline nan: expected: finite")):
+            with unittest.mock.patch("sys.argv", ["harmos-plot", RUN, *arguments]):
+                with self.assertRaises(options.PlotError) as refusal:
+                    options.parseArguments(["pressure"], ["png"])
+            self.assertIn(words, str(refusal.exception))
 
 
 class Files(unittest.TestCase):
