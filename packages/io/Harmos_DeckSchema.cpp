@@ -293,7 +293,8 @@ void addNumerics(ParameterList &list)
       "what moved regions have in common of bodies that have flowed (plastic strain above 0.1) and pass each other is "
       "divided between them before the remap");
   add(m, "return_kinetic_defect", remap.return_kinetic_defect, rulesOf(KeyType::Bool),
-      "kinetic energy lost by the remap becomes internal energy (not beside materials that can fail)");
+      "kinetic energy lost by the remap becomes internal energy (not beside materials that can fail): behind strong "
+      "shocks some percent of it, at any resolution");
 }
 
 void addRun(ParameterList &list)
