@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Harmos_CheckScene.hpp"
 #include "Harmos_PrescribedCycle.hpp"
-#include "Harmos_TargetMesh.hpp"
+#include "Harmos_Require.hpp"
 
 #include <Harmos_EquationOfState.hpp>
 #include <Harmos_Failure.hpp>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 namespace Harmos
@@ -47,58 +47,6 @@ std::vector<double> largestDensities(Scene const &scene, CycleState const &s, st
   return largest;
 }
 
-void require(bool right, std::string const &what)
-{
-  if (!right)
-    throw std::runtime_error(what);
-}
-
-int largestMaterial(CellMaterialPairs const &pairs)
-{
-  int largest = -1;
-  Kokkos::parallel_reduce(
-      "Harmos::largestMaterial", RangePolicy(0, pairs.num_pairs),
-      KOKKOS_LAMBDA(int pair, int &most) { most = Math::max(most, pairs.material(pair)); }, Kokkos::Max<int>(largest));
-  return largest;
-}
-
-/// What a host code can leave out or get wrong without a kernel that would notice.
-void checkScene(Scene const &scene)
-{
-  require(scene.exchange != nullptr, "scene.exchange is not set; a host code on one rank gives a Harmos::Exchange");
-  std::string const n = std::to_string(scene.materials.extent(0));
-  auto const &table = scene.constraint.interaction;
-  require(table.extent(0) == scene.materials.extent(0) && table.extent(1) == scene.materials.extent(0),
-          "scene.constraint.interaction is " + std::to_string(table.extent(0)) + " x " +
-              std::to_string(table.extent(1)) + "; expected: " + n + " x " + n + ", as many as materials");
-  require(static_cast<int>(scene.boundary.node_index.extent(0)) == scene.mesh.num_nodes,
-          "scene.boundary does not belong to scene.mesh; see buildBoundaryConditions");
-  require(scene.rigid_shape.size() == scene.rigid_start.size() ||
-              (scene.kinematics == Kinematics::Lagrangian && scene.rigid_shape.empty()),
-          "scene.rigid_shape and scene.rigid_start differ in number");
-  if (scene.exchange->size() == 1)
-    return;
-  require(scene.kinematics != Kinematics::Lagrangian, "lagrangian kinematics runs on one rank only");
-  std::string const why = whyNotShared(scene);
-  require(why.empty(), "the mesh has " + why);
-}
-
-void checkState(Scene const &scene, CycleState const &s)
-{
-  std::string const pairs = std::to_string(s.pairs.num_pairs), dofs = std::to_string(s.dof_nodes.num_dof_nodes);
-  require(static_cast<int>(s.pairs.offset.extent(0)) == scene.mesh.num_cells + 1,
-          "state.pairs does not belong to scene.mesh");
-  require(static_cast<int>(s.state.record.extent(0)) >= s.pairs.num_pairs &&
-              static_cast<int>(s.state.centroid.extent(0)) >= s.pairs.num_pairs,
-          "state.state has fewer records or centroids than the " + pairs + " pairs");
-  require(static_cast<int>(s.state.velocity.extent(0)) >= s.dof_nodes.num_dof_nodes,
-          "state.state.velocity has fewer rows than the " + dofs + " dof nodes");
-  int const largest = largestMaterial(s.pairs);
-  require(largest < static_cast<int>(scene.materials.extent(0)),
-          "state.pairs names material " + std::to_string(largest) + "; expected: less than " +
-              std::to_string(scene.materials.extent(0)) + ", the number of materials");
-}
-
 /// Rows balance the stress of what acts over what it fills.
 std::vector<ShortSegments> shortSegments(Scene const &scene, std::vector<Material> const &laws)
 {
@@ -133,8 +81,7 @@ std::vector<int> contactWalls(Scene const &scene)
 
 ReconstructionReport startCycle(Scene &scene, CycleState &s)
 {
-  checkScene(scene);
-  checkState(scene, s);
+  checkScene(scene, s);
   auto const materials = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), scene.materials);
   std::vector<Material> const laws(materials.data(), materials.data() + materials.extent(0));
   if (scene.constraint.impedance.extent(0) == 0)
@@ -142,7 +89,7 @@ ReconstructionReport startCycle(Scene &scene, CycleState &s)
     std::vector<double> const z = impedances(laws);
     if (scene.constraint.method == ConstraintMethod::Penalty || scene.constraint.method == ConstraintMethod::Nitsche)
       for (std::size_t m = 0; m < z.size(); ++m)
-        require(
+        detail::require(
             z[m] > 0.0 || laws[m].rigid_body >= 0,
             "scene.constraint.method penalty and nitsche scale with the impedance of the laws' reference states, and "
             "material " +

@@ -107,7 +107,6 @@ struct CycleReport
   int crossing_cell = -1; // prescribed field: it would carry this cell's material through a side of the mesh
   int crossing_material = -1;
   double restored_volume = 0.0; // prescribed field: sum over materials of |volume given back| [length^2]
-  double kinetic_energy = 0.0;  // of v^{n+1/2} before the remap, deformable bodies and free rigid ones
 };
 
 /// Dof velocities of rigid materials from their bodies (single: of every node that a rigid pair touches).
@@ -126,7 +125,7 @@ void reconstructState(Scene const &scene, CycleState &state, ReconstructionRepor
 /// \param state Holds pairs, records, centroids, dof nodes and their velocities: painted (Harmos_Paint.hpp) or
 ///              restored. A restored state's own step is to be set afterwards.
 /// \return Failures above zero: an interface could not be placed, and the state cannot be used.
-/// \throw std::runtime_error that names what is missing or does not fit.
+/// \throw std::runtime_error that names what is missing or does not fit, the same on all ranks.
 ReconstructionReport startCycle(Scene &scene, CycleState &state);
 
 /// One cycle: lagrange, constrain, move, remap, and the filled regions of the new state (doc/theory). With a

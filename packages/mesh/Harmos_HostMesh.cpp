@@ -154,7 +154,7 @@ void requireBlock(std::vector<MappedBlock> const &blocks, std::size_t b)
             name + " overlaps block " + std::to_string(other));
 }
 
-/// Of the other cells at a face a -> b, none may run along it a -> b and one at most b -> a.
+/// Of the other cells at a face a -> b, none may run along it a -> b and one at most b -> a; its boundary number.
 void checkFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int face)
 {
   int const a = mesh.cell[cell][face];
@@ -173,6 +173,9 @@ void checkFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int fa
   if (other_way == 1 && mesh.face_boundary[cell][face] >= 0)
     fail("cell " + std::to_string(cell) + ": inner face " + std::to_string(face) + " lies on boundary " +
          std::to_string(mesh.face_boundary[cell][face]));
+  if (mesh.face_boundary[cell][face] < -1)
+    fail("cell " + std::to_string(cell) + ": face " + std::to_string(face) + " lies on boundary " +
+         std::to_string(mesh.face_boundary[cell][face]) + "; expected: 0 or more, or -1 for none");
 }
 
 } // namespace

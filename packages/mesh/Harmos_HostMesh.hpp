@@ -33,7 +33,7 @@ int oppositeFace(HostMesh const &mesh, HostRows const &node_cell, int cell, int 
 
 /// \throw std::runtime_error naming the cell: a node number out of range, a corner that is not strictly convex
 ///        (so that the area is positive), a face that more than two cells or two of the same orientation share, a
-///        boundary number on an inner face, arrays of different lengths; or the node that no cell touches.
+///        boundary number on an inner face or below -1, arrays of different lengths; or the node that no cell touches.
 void checkHostMesh(HostMesh const &mesh);
 
 /// Two cells of different bodies that lie in each other by more than `part` of the smaller one's shortest side; {-1,

@@ -201,6 +201,10 @@ Mesh buildLocalMesh(HostMesh const &whole, std::vector<int> const &owner, int ra
   if (owner.size() != whole.cell.size())
     throw std::runtime_error("local mesh: " + std::to_string(whole.cell.size()) + " cells but owners of " +
                              std::to_string(owner.size()));
+  auto const stray = std::find_if(owner.begin(), owner.end(), [](int of_cell) { return of_cell < 0; });
+  if (stray != owner.end())
+    throw std::runtime_error("local mesh: the owner of cell " + std::to_string(stray - owner.begin()) + " is " +
+                             std::to_string(*stray) + "; expected: a rank, 0 or more");
   if (halo < 0)
     throw std::runtime_error("local mesh: halo = " + std::to_string(halo) + " < 0");
   HostRows const node_cell = cellsAroundNodes(whole);

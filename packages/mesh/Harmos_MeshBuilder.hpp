@@ -14,7 +14,8 @@ Mesh buildMesh(HostMesh const &whole);
 
 /// The mesh as one rank sees it: its cells and `halo` layers of vertex neighbours, numbered in global order.
 ///
-/// \param owner  Rank of each cell of the whole mesh. A rank without cells gets an empty mesh.
+/// \param owner  Rank of each cell of the whole mesh, >= 0; that there are as many ranks is for startCycle to find. A
+///               rank without cells gets an empty mesh.
 /// \param halo   Layers, >= 0.
 /// A node belongs to the owner of the lowest-numbered cell around it.
 /// \throw std::runtime_error as checkHostMesh; faces of the cells that the rank holds alone: others need not throw.

@@ -136,6 +136,9 @@ TEST(CheckHostMesh, damagedMeshes_nameTheCell)
   mesh.face_boundary[1][2] = 0;
   EXPECT_NE(messageOf(mesh).find("cell 1: inner face 2"), std::string::npos) << messageOf(mesh);
   mesh = good;
+  mesh.face_boundary[1][1] = -5;
+  EXPECT_NE(messageOf(mesh).find("cell 1: face 1 lies on boundary -5"), std::string::npos) << messageOf(mesh);
+  mesh = good;
   mesh.cell.push_back(mesh.cell[0]);
   mesh.face_boundary.push_back(mesh.face_boundary[0]);
   EXPECT_NE(messageOf(mesh).find("shared wrongly"), std::string::npos) << messageOf(mesh);

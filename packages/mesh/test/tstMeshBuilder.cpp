@@ -226,6 +226,9 @@ TEST(BuildLocalMesh, wrongOwners_areRefused)
   HostMesh const whole = rectilinearMesh(uniform(3), uniform(3));
   EXPECT_THROW(buildLocalMesh(whole, std::vector<int>(8, 0), 0, 2), std::runtime_error);
   EXPECT_THROW(buildLocalMesh(whole, std::vector<int>(9, 0), 0, -1), std::runtime_error);
+  std::vector<int> owner(9, 0);
+  owner[4] = -1;
+  EXPECT_THROW(buildLocalMesh(whole, owner, 0, 2), std::runtime_error);
 }
 
 TEST(UpdateGeometry, nodesMovedByALinearMap_areasScaleByItsDeterminant)
