@@ -101,9 +101,21 @@ void setUp(Run &run);
 /// \throw std::runtime_error if the file cannot be read, or does not belong to the deck.
 void restoreState(Run &run);
 
+/// Keep other runs off the folder of the results, where there is one, before a checkpoint in it is read.
+/// \throw DeckError on all ranks alike.
+void lockDirectory(Run &run);
+
 /// Make the folder of the results this run's own, which has it to itself until the Run goes. Results of an earlier run
 /// are never overwritten unawares. \throw DeckError on all ranks alike.
 void claimDirectory(Run &run);
+
+/// Write summary.json, on rank 0.
+/// \param together All ranks are here; else this one writes what it knows by itself.
+void writeRunSummary(Run const &run, std::string const &status, bool together);
+
+/// The summary of a run that ended by an exception, of its output as a rule, as far as the disk takes one. On several
+/// ranks the others may be anywhere: the first does it, if it was there.
+void summariseByItself(Run &run, std::string const &cause);
 
 } // namespace Harmos
 

@@ -52,6 +52,18 @@ std::string resultsProblem(Run const &run, std::filesystem::path const &director
   return "";
 }
 
+/// Take the lock of a folder that is there. \return Who has it already, as a message; empty: nobody.
+std::string lockProblem(Run &run)
+{
+  std::string const &directory = run.options.directory;
+  if (!run.lock)
+    run.lock = std::make_unique<FolderLock>(directory);
+  if (run.lock->holder().empty())
+    return "";
+  return "output directory '" + directory + "' is in use by another run (" + run.lock->holder() +
+         "); expected: another --output, or to wait for its end";
+}
+
 /// What stands in the way of writing to the run's folder; empty: nothing. What is in it is looked at when no other run
 /// can change it any more.
 std::string folderProblem(Run &run)
@@ -61,11 +73,9 @@ std::string folderProblem(Run &run)
   std::filesystem::create_directories(directory, error);
   if (error)
     return "cannot make output directory '" + directory.string() + "': " + error.message();
-  run.lock = std::make_unique<FolderLock>(directory.string());
-  if (!run.lock->holder().empty())
-    return "output directory '" + directory.string() + "' is in use by another run (" + run.lock->holder() +
-           "); expected: another --output, or to wait for its end";
-  std::string const problem = resultsProblem(run, directory);
+  std::string problem = lockProblem(run);
+  if (problem.empty())
+    problem = resultsProblem(run, directory);
   if (!problem.empty())
     return problem;
   if (::access(directory.c_str(), W_OK) != 0)
@@ -408,6 +418,15 @@ void setUp(Run &run)
   {
     throw DeckError(run.deck.file + ": " + error.what());
   }
+}
+
+void lockDirectory(Run &run)
+{
+  std::error_code error;
+  bool const looks = run.comm->getRank() == 0 && std::filesystem::is_directory(run.options.directory, error);
+  std::string const problem = firstCause(*run.comm, looks ? lockProblem(run) : "");
+  if (!problem.empty())
+    throw DeckError(problem);
 }
 
 void claimDirectory(Run &run)

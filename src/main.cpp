@@ -107,7 +107,7 @@ Arguments parseArguments(int argc, char **argv)
     else if (word == "--set")
       arguments.overrides.push_back(value(i));
     else if (word == "--restart")
-      arguments.run.restart = checkpointOf(value(i));
+      arguments.run.restart = value(i);
     else if (word == "--force")
       arguments.run.force = true;
     else if (word == "--version" || word == "--help" || word == "-h")
@@ -123,6 +123,8 @@ Arguments parseArguments(int argc, char **argv)
       throw Harmos::DeckError("one deck at a time: '" + word + "' is too many");
   }
   checkOptions(arguments);
+  if (!arguments.run.restart.empty())
+    arguments.run.restart = checkpointOf(arguments.run.restart);
   bool const takes_deck = arguments.command == "run" || arguments.command == "check" || arguments.command == "remap";
   if (takes_deck && arguments.deck.empty())
     throw Harmos::DeckError("'harmos " + arguments.command + "' needs a deck");
