@@ -2,6 +2,7 @@
 #include <Harmos_OutlineCorner.hpp>
 
 #include <Harmos_Clip.hpp>
+#include <Harmos_Shape.hpp>
 
 namespace Harmos
 {

@@ -2,11 +2,14 @@
 #ifndef HARMOS_OUTLINE_CORNER_HPP
 #define HARMOS_OUTLINE_CORNER_HPP
 
+#include <Harmos_AreaWeight.hpp>
+#include <Harmos_Bilinear.hpp>
 #include <Harmos_Kokkos.hpp>
-#include <Harmos_Shape.hpp>
 
 namespace Harmos
 {
+
+struct Shape;
 
 /// What two straight edges of a body's outline bound in a cell.
 enum class CornerKind

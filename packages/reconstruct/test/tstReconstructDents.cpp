@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ReconstructScene.hpp"
+#include "RigidWedge.hpp"
 
 #include <gtest/gtest.h>
 
