@@ -100,8 +100,8 @@ struct LumpedForces
     return first < 0 ? mesh.corner_share(cell, corner) : lumped(first + pair - pairs.offset(cell), Part0 + corner);
   }
 
-  /// Force of a pair at a corner less that of a pressure.
-  KOKKOS_INLINE_FUNCTION Vector2 forceBeyond(int pair, int cell, int corner, double of_pressure) const
+  /// Force of a pair's pressure at a corner per pressure: V B_I.
+  KOKKOS_INLINE_FUNCTION Vector2 forcePerPressure(int pair, int cell, int corner) const
   {
     detail::Corners<double> const x = detail::cellCorners(mesh, cell);
     Vector2 b;
@@ -122,21 +122,20 @@ struct LumpedForces
       b += Vector2{cut.gradient(row, 3 * corner + CutGradientX) + cut.gradient(row, 3 * corner + CutHoop),
                    cut.gradient(row, 3 * corner + CutGradientY)};
     }
-    Vector2 const f{corner_force(pair, 2 * corner), corner_force(pair, 2 * corner + 1)};
-    return f - (of_pressure * record(pair, Mass) * record(pair, SpecificVolume)) * b;
+    return (record(pair, Mass) * record(pair, SpecificVolume)) * b;
   }
 
   KOKKOS_INLINE_FUNCTION double drive(int pair, int row) const
   {
     int const cell = pairs.cell(pair), material = pairs.material(pair);
-    double const p = pressure(pair, 0), mass = record(pair, Mass);
+    double const mass = record(pair, Mass);
     Vector2 const along{lumped(row, AlongX), lumped(row, AlongY)};
     double sum = 0.0;
     for (int k = 0; k < 4; ++k)
     {
       int const node = mesh.cell_node(cell, k);
-      double mass_at = 0.0;
-      Vector2 force{0.0, 0.0};
+      double mass_at = 0.0, filled = 0.0, load = 0.0;
+      Vector2 force{0.0, 0.0}, per_pressure{0.0, 0.0};
       for (int e = mesh.node_cell.offset(node); e < mesh.node_cell.offset(node + 1); ++e)
       {
         int const of = mesh.node_cell.item(e) / 4, corner = mesh.node_cell.item(e) % 4;
@@ -146,8 +145,13 @@ struct LumpedForces
         if (like < 0)
           continue;
         mass_at += record(like, Mass) * partAt(like, of, corner);
-        force += forceBeyond(like, of, corner, p);
+        filled += pressure(like, 1);
+        load += pressure(like, 1) * pressure(like, 0);
+        force += Vector2{corner_force(like, 2 * corner), corner_force(like, 2 * corner + 1)};
+        per_pressure += forcePerPressure(like, of, corner);
       }
+      if (filled > 0.0)
+        force = force - (load / filled) * per_pressure;
       int const condition = boundary.node_index(node);
       if (condition >= 0)
         force = boundary.condition(condition).project(force);

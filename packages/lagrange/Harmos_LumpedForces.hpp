@@ -17,8 +17,10 @@ namespace Harmos
 ///
 ///   h_I = (s_I - N_I(x_c)) t (t . F),   F = sum_J (m N_J / M_J) f_J,   M_J = sum over pairs m N_J(x_c),
 ///
-/// t along its interface, f_J the force on node J of all pairs of the material around with the pair's own pressure
-/// taken from theirs, so that one pressure everywhere drives nothing, whatever way the interface bends. Where all nodes
+/// t along its interface, f_J the force on node J of all pairs of the material around with one pressure taken from
+/// theirs, the mean by volume of what they have, which is what the interfaces there bear: so one pressure everywhere
+/// drives nothing, whatever way the interface bends, and a small tip of another pressure is driven by what acts through
+/// its opening alone. Where all nodes
 /// should have one acceleration, f_J = M_J a, they get it along t: f_J + sum h_J = m_J a. The sum over I of h_I is
 /// zero; its work is the pair's (updatePairs). Across the interface the contact's tractions, which have the same
 /// weights, are in balance with the stress. Where edges inside of the cell have several directions, less:

@@ -166,8 +166,9 @@ def test_air_stays_where_it_is_over_a_block_that_begins_to_float():
 
 def test_a_block_floats_in_still_air():
     # Until tractions were no larger than the cells around bear, and gas did the work of what it fills, 1.7 kJ/m were taken by 0.116 s (sides on
-    # cell faces), or it ended early.
-    for center in "[0.3, 0.43]", "[0.311, 0.433]":
+    # cell faces), or it ended early. Until what drives a tip along its interface was what acts through its opening, four of twenty places were
+    # stirred by 2e-3 to 0.8 J/m, by last digits: hence the neighbours of the first.
+    for center in "[0.3, 0.43]", "[0.30000000000007, 0.43]", "[0.30000000000009, 0.43]", "[0.311, 0.433]":
         r = harmos(ROOT / "test/verification/decks/floating_block.yaml", {"bodies/block/center": center, "run/end_time": 0.12})
         check(f"block at {center}: kinetic energy of the air [J/m]", max(r["air.kinetic_energy"]), 1e-2)
         check(f"block at {center}: energy that contact takes or gives over that of the scene", max(map(abs, r["contact_loss"])) / r.last("internal_energy"), 2e-5)

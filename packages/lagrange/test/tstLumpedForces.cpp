@@ -173,3 +173,29 @@ TEST(LumpedForces, ofAPairAddUpToNothing)
     }
   EXPECT_GT(largest, 1e-6);
 }
+
+TEST(LumpedForces, ofATipOfHigherPressureAreThoseThroughItsOpening)
+{
+  // A wedge below y = 3 at the wall x = 4, open above over 0.26 cells. The wall there bears the pressure of the cells
+  // above; were it the wedge's, these would be driven along the wall's normal by the difference over half a cell.
+  Fluid gas(Plane2{normalised(Vector2{-0.2, -0.98}), (-0.2 * 3.74 - 0.98 * 3.0) / std::hypot(0.2, 0.98)},
+            [](double y) { return y < 3.0 ? 0.02 : 0.01; });
+  Forces const change = gas.added();
+  auto const cell = onHost(gas.s.pairs.cell);
+  auto const pressure = onHost(gas.s.work.pressure);
+  int wedge = -1, above = -1;
+  for (int pair = 0; pair < gas.s.pairs.num_pairs; ++pair)
+    if (cell(pair) == 2 * nx + 3)
+      wedge = pair;
+    else if (cell(pair) == 3 * nx + 3)
+      above = pair;
+  ASSERT_GE(wedge, 0);
+  ASSERT_GE(above, 0);
+  double const excess = pressure(wedge, 0) - pressure(above, 0), opening = 0.26;
+  double const acceleration = excess * opening / (0.25 * pressure(above, 2));
+  double largest = 0.0;
+  for (double const f : change[wedge])
+    largest = std::max(largest, std::fabs(f));
+  EXPECT_GT(excess, 0.0);
+  EXPECT_LT(largest, 0.25 * pressure(wedge, 2) * acceleration);
+}
