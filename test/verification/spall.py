@@ -57,7 +57,8 @@ def test_scab_and_pull_back_are_those_of_acoustics():
         whole = (time > time[-1] - period)
         mean = float(numpy.average(velocity[whole], weights=numpy.gradient(time)[whole]))
         x, void, h = void_in_target(r)
-        main = abs(x - x[void.argmax()]) < 5.5 * h
+        # The pulse breaks a second plane at twice the depth, whose void may be in fewer cells: the first has the most in eleven.
+        main = abs(x - x[numpy.convolve(void, numpy.ones(11), "same").argmax()]) < 5.5 * h
         plane = float((x * void)[main].sum() / void[main].sum())
         scab = r.last("target.x_max") - plane - 0.5 * h * void[main].sum()
         print(f"  {cells} cells: scab {1e3 * scab:.3f} mm (exact {1e3 * SCAB:.3f}), rear falls to {pulled:.2f} m/s (exact "
