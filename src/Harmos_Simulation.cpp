@@ -251,6 +251,19 @@ void reportConvergence(Run &run, CycleReport const &report)
   }
 }
 
+/// What an ideal gas without internal energy has of it; nothing for other laws.
+std::string missingEnergy(Run const &run, UpdateReport const &u)
+{
+  Material const material =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), run.scene.materials)(u.range_material);
+  if (material.eos != EosKind::IdealGas || u.range_energy > 0.0)
+    return "";
+  char text[128];
+  std::snprintf(text, sizeof text, ": its internal energy is not positive, %.2e J/kg, in all %.2e %s", u.range_energy,
+                u.range_energy * u.range_mass, run.scene.mesh.geometry == Geometry::Planar ? "J/m" : "J per radian");
+  return text;
+}
+
 /// A pair that has left the range of its equation of state goes on, by floors; the run says so once for each tenfold
 /// number of such pairs and cycles, with the first place of the cycle.
 void reportRange(Run &run, CycleReport const &report, double before)
@@ -259,8 +272,8 @@ void reportRange(Run &run, CycleReport const &report, double before)
   if (count == before || std::floor(std::log10(count)) == std::floor(std::log10(std::max(before, 0.5))))
     return;
   UpdateReport const &u = report.update;
-  std::string const place =
-      firstCause(*run.comm, u.range_cell >= 0 ? placeOf(run, u.range_cell, u.range_material) : "");
+  std::string const place = firstCause(
+      *run.comm, u.range_cell >= 0 ? placeOf(run, u.range_cell, u.range_material) + missingEnergy(run, u) : "");
   warn(run, "cycle " + std::to_string(run.state.cycle) + ": outside of the range of the equation of state: " + place +
                 " (" + std::to_string(std::llround(count)) + " pair steps so far)");
 }

@@ -123,6 +123,7 @@ PredictionSums accelerate(Scene &scene, CycleState &s, double dt, double kick)
 {
   LagrangeOptions options = scene.lagrange;
   options.energy_lag = 0.5 * dt; // of the step that lies behind, which the one ahead stands for
+  options.kick = kick;
   if (scene.kinematics != Kinematics::Lagrangian)
   {
     PredictionSums const sums = computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary,

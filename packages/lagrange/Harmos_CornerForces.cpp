@@ -27,6 +27,7 @@ struct CornerForceFunctor
   RowPointer<double, num_pair_fields> record;
   RowPointer<double, 8> corner_force;
   detail::CutPairs cut;
+  RowPointer<double, 4> share; // Mesh::corner_share, about an axis
   View<double *[3]> before;
   View<double *[3]> pressure; // extent 0: not kept
   int begin = 0, end = 0;     // pairs
@@ -80,10 +81,14 @@ struct CornerForceFunctor
       bool const any_cut = actsOnFilledRegion(options.cut_cell_stress, material) && cut.any(cell);
       auto const v = detail::packedCorners({dof_node, pair, run}, velocity);
       PackedCornerRows const nodes(cell_node, cell, run && countsUp(cell_of + pair[0]));
-      Pack const cut_trace = any_cut ? cut.template velocityGradient<geometry>(pair, cell, v).trace() : Pack(0.0);
+      auto const x = detail::packedCorners(nodes, position);
+      detail::CutPart<Pack> part = {};
+      if (any_cut)
+        part = {cut.template velocityGradient<geometry>(pair, cell, v), cut.lostExtent(pair, cell),
+                cut.template answerToPressure<geometry>(pair, cell, x, share)};
       auto const own = detail::loadPackedRecord(record, pair, run);
-      auto const forces = detail::pairForces<geometry>(material, options, own, detail::packedCorners(nodes, position),
-                                                       v, bearing(material, pair, cell), cut_trace);
+      auto const forces = detail::pairForces<geometry>(material, options, own, x, v, bearing(material, pair, cell),
+                                                       any_cut ? &part : nullptr);
       f = forces.corner;
       if (state.tracks_damage && canFail(material))
         for (int lane = 0; lane < pack_width; ++lane)
@@ -131,6 +136,7 @@ detail::PairKernel kernelOf(Mesh const &mesh, CellMaterialPairs const &pairs, Pa
                                            state.record,
                                            work.corner_force,
                                            detail::CutPairs(work.cut, pairs),
+                                           mesh.corner_share.part,
                                            work.before,
                                            work.keeps_pressure ? work.pressure : View<double *[3]>()};
   return [whole](int begin, int end)

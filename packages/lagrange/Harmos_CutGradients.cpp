@@ -2,7 +2,9 @@
 #include <Harmos_CutGradients.hpp>
 
 #include <Harmos_BentEdge.hpp>
+#include <Harmos_Bilinear.hpp>
 #include <Harmos_Fullness.hpp>
+#include <Harmos_Moments.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -68,6 +70,41 @@ KOKKOS_INLINE_FUNCTION void hoopMeans(Quadrilateral const &q, Region const &regi
     hoop[k] /= ring;
 }
 
+/// A symmetric tensor.
+struct SquaredExtent
+{
+  double xx, xy, yy;
+
+  KOKKOS_INLINE_FUNCTION double along(Vector2 const &n) const
+  {
+    return n[0] * n[0] * xx + 2.0 * n[0] * n[1] * xy + n[1] * n[1] * yy;
+  }
+};
+
+/// 12 / area times the second moments about the centroid.
+template <int Capacity>
+KOKKOS_INLINE_FUNCTION SquaredExtent squaredExtent(Polygon<Capacity> const &polygon)
+{
+  auto const m = moments<2>(polygon, polygon[0]);
+  Vector2 const c = m.centroid();
+  double const scale = 12.0 / m.volume();
+  return {scale * m.second(0, 0) - 12.0 * c[0] * c[0], scale * m.second(0, 1) - 12.0 * c[0] * c[1],
+          scale * m.second(1, 1) - 12.0 * c[1] * c[1]};
+}
+
+/// The part of a face of a cell that a region of it lies on.
+KOKKOS_INLINE_FUNCTION double partOfFace(Quadrilateral const &q, int face, Region const &region)
+{
+  double length = 0.0;
+  for (int i = 0; i < region.size; ++i)
+  {
+    Vector2 const a = region[i], b = region[region.next(i)];
+    if (isOnFace(q, face, a) && isOnFace(q, face, b))
+      length += norm(b - a);
+  }
+  return length / norm(q[(face + 1) % 4] - q[face]);
+}
+
 struct CutGradientFunctor
 {
   Mesh mesh;
@@ -79,13 +116,66 @@ struct CutGradientFunctor
   double shortest_bent_edge;
   View<int *> first_row;
   View<double *[12]> gradient;
+  View<double *[3]> lost_extent;
 
-  KOKKOS_INLINE_FUNCTION void store(int row, int cell, Quadrilateral const &q, double full, double share) const
+  KOKKOS_INLINE_FUNCTION void storeLost(int row, double share, SquaredExtent const &whole,
+                                        SquaredExtent const &own) const
+  {
+    lost_extent(row, LostExtentXX) = share * (whole.xx - own.xx);
+    lost_extent(row, LostExtentXY) = share * (whole.xy - own.xy);
+    lost_extent(row, LostExtentYY) = share * (whole.yy - own.yy);
+  }
+
+  /// Square of the extent of a region and of what continues it in the cells beyond its faces, at most that of its cell:
+  /// along a principal axis e of the region, those have n . e times their extent along the normal n of the face, times
+  /// the part of the face that both sides lie on. A part of a cell beside a full one has the extent of its cell, a film
+  /// its thickness.
+  KOKKOS_INLINE_FUNCTION SquaredExtent reach(int cell, int material, Quadrilateral const &q, Region const &region,
+                                             SquaredExtent const &whole) const
+  {
+    SquaredExtent const own = squaredExtent(region);
+    double const angle = 0.5 * Math::atan2(own.xy, 0.5 * (own.xx - own.yy));
+    Vector2 const axis[2] = {{Math::cos(angle), Math::sin(angle)}, {-Math::sin(angle), Math::cos(angle)}};
+    double length[2];
+    for (int i = 0; i < 2; ++i)
+      length[i] = Math::sqrt(Math::max(own.along(axis[i]), 0.0));
+    for (int face = 0; face < 4; ++face)
+    {
+      int const beyond = mesh.face_neighbour(cell, face);
+      int const pair = beyond < 0 ? -1 : pairs.find(beyond / 4, material);
+      double const part = pair < 0 ? 0.0 : partOfFace(q, face, region);
+      if (!(part > 0.0))
+        continue;
+      Region const other = regions.region(mesh, pairs, pair);
+      if (other.size < 3 || !(area(other) > 0.0))
+        continue;
+      double const open = Math::min(part, partOfFace(cellQuadrilateral(mesh, beyond / 4), beyond % 4, other));
+      Vector2 const side = q[(face + 1) % 4] - q[face];
+      Vector2 const normal = (1.0 / norm(side)) * Vector2{side[1], -side[0]};
+      double const more = open * Math::sqrt(Math::max(squaredExtent(other).along(normal), 0.0));
+      for (int i = 0; i < 2; ++i)
+        length[i] += more * Math::fabs(dot(normal, axis[i]));
+    }
+    SquaredExtent sum = {0.0, 0.0, 0.0};
+    for (int i = 0; i < 2; ++i)
+    {
+      double const square = Math::min(length[i] * length[i], whole.along(axis[i]));
+      sum.xx += square * axis[i][0] * axis[i][0];
+      sum.xy += square * axis[i][0] * axis[i][1];
+      sum.yy += square * axis[i][1] * axis[i][1];
+    }
+    return sum;
+  }
+
+  KOKKOS_INLINE_FUNCTION void store(int row, int cell, int material, Quadrilateral const &q, double full,
+                                    double share) const
   {
     constexpr double least_volume = 1e-6; // of the cell's: below it the outline's round-off would count
     Region const &region = regions.polygon(row);
     AreaWeight const ring = areaWeight(mesh.geometry, {0.0, 0.0});
     double const filled = region.size < 3 ? 0.0 : volume(region, ring);
+    SquaredExtent const whole = squaredExtent(q);
+    storeLost(row, share, whole, filled > 0.0 ? reach(cell, material, q, region, whole) : SquaredExtent{0.0, 0.0, 0.0});
     if (!(filled > least_volume * mesh.cell_volume(cell)))
     {
       for (int column = 0; column < 12; ++column)
@@ -155,7 +245,7 @@ struct CutGradientFunctor
         share = count < 2 ? 0.0
                           : ownShare(pairs.offset(cell) + k, material, volume(region, mesh.geometry),
                                      area(region) / mesh.cell_area(cell), full);
-      store(first + k, cell, q, full, share);
+      store(first + k, cell, pairs.material(pairs.offset(cell) + k), q, full, share);
       any = any || share > 0.0;
     }
     if (any)
@@ -178,9 +268,12 @@ void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs,
   if (static_cast<int>(cut.gradient.extent(0)) < count)
     cut.gradient = View<double *[12]>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::cut_gradient"),
                                       count + count / 8);
+  if (cut.lost_extent.extent(0) < cut.gradient.extent(0))
+    cut.lost_extent = View<double *[3]>(
+        Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::lost_extent"), cut.gradient.extent(0));
   Kokkos::parallel_for("Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
                        CutGradientFunctor{mesh, pairs, record, regions, materials, where, shortest_bent_edge,
-                                          cut.first_row, cut.gradient});
+                                          cut.first_row, cut.gradient, cut.lost_extent});
 }
 
 } // namespace Harmos

@@ -38,11 +38,20 @@ enum CutGradientColumn : int
   CutHoop = 2       // axisymmetric: N_I / r; planar: zero
 };
 
+/// Columns of CutGradients::lost_extent.
+enum LostExtentColumn : int
+{
+  LostExtentXX = 0,
+  LostExtentXY = 1,
+  LostExtentYY = 2
+};
+
 /// What the means of the shape functions' gradients over a filled region have beyond those over its cell.
 struct CutGradients
 {
-  View<int *> first_row;       // by cell: row of its first pair; -1: cells' means for all; extent 0: so everywhere
-  View<double *[12]> gradient; // by row, 3 I + CutGradientColumn; rows follow the pairs of a cell [1/length]
+  View<int *> first_row;         // by cell: row of its first pair; -1: cells' means for all; extent 0: so everywhere
+  View<double *[12]> gradient;   // by row, 3 I + CutGradientColumn; rows follow the pairs of a cell [1/length]
+  View<double *[3]> lost_extent; // by row: what the square of the extent of the region lacks of its cell's [length^2]
 };
 
 /// Part of a cell below which the gradient of a solid that is worn, or beside void, goes back to the cell's mean, in
@@ -88,6 +97,12 @@ constexpr double most_void_beside_tip = 1e-3;
 /// to its thin volume the difference is a gradient without bound, whose viscosity tears it. Means of gradients are at
 /// most those of the shape functions: the difference from the cell's is scaled down to three times the longest side
 /// over the area, where it is larger (hoop's part included).
+///
+/// `lost_extent` is E_cell - E_m, E = 12 / A times the second moments of an area A about its centroid: n . E n is the
+/// square of the extent along n (of a rectangle along its sides). That of a region, E_m, is lengthened along its axes
+/// by what continues it beyond the faces it lies on, up to that of its cell. Artificial viscosity works over it: the
+/// velocities of a film's sides differ by its thickness times the gradient. Of solids it counts as far as B_I does. A
+/// region without a volume has no extent.
 ///
 /// \param record By pair (PairField): specific volume and plastic strain say what is worn, with the mass what drifted.
 /// \param shortest_bent_edge Of the cell size; that of bendOf.

@@ -33,6 +33,7 @@ struct LagrangeOptions
   double largest_travel = 0.45; // dt |v| over the smallest altitude of the cells around
   double light_node = 1e-3;     // dof nodes lighter than this part of a full one do not set the time step
   double energy_lag = 0.0;      // [s] of internal energies behind specific volumes; the cycle sets it to half a step
+  double kick = 0.0;            // [s] of predictVelocities, which bounds the viscosity of cut cells; 0: no bound
 };
 
 /// Nodes that follow pieces of the cells (nodeEnds), of the mesh with these rows.
@@ -102,6 +103,8 @@ struct UpdateReport
   int material = -1;
   int range_cell = -1; // the first one out of range
   int range_material = -1;
+  double range_energy = 0.0; // its specific internal energy [energy/mass]
+  double range_mass = 0.0;
 };
 
 /// What limitTravel found and did.
@@ -158,12 +161,20 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
 /// Axisymmetric (x = r, y = z, per radian): V B_I = integral of r grad N_I dA, and the hoop stress acts on the integral
 /// of N_I dA in addition (detail/Harmos_RingQuadrature.hpp): f_I . v_I sums to - m sv sigma : D, tr D = V'/V.
 /// Viscosity in compression (theta = tr D < 0, at v^{n-1/2}): q = rho (c1 c L |theta| + c2 L^2 theta^2), L^2 the cell's
-/// area, c the longitudinal sound speed. p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2), theta of either sign:
-/// the internal energy lags half a step (decision 0009). p = 0 in tension that the pair cannot bear: any where it has
-/// failed, beyond its spall strength elsewhere (decision 0006). Hourglass: f_I = - C gamma_I (sum_J gamma_J v_J), C =
-/// kappa m c / (4 L), gamma_I = Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1): orthogonal to linear
-/// fields. Flanagan & Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann & Richtmyer, J. Appl. Phys.
-/// 21 (1950) 232; Landshoff, LA-1930 (1955).
+/// area, c the longitudinal sound speed. In cut cells of `xfem` theta is that of what the pair fills, and L its extent
+/// along the strongest compression (over its cell's, CutGradients::lost_extent): the velocities of the two sides of a
+/// film differ by theta times its thickness, however fast its nodes, a cell apart, move. And q is at most what
+/// reverses theta within `kick` of the nodes' masses from this pair alone,
+///
+///   q <= 2 rho |theta| / (kick sum_I |B_I|^2 / s_I), s_I the corners' shares,
+///
+/// so that m kick (q / rho) B B^T / |theta| <= 2 diag(m s_I), in sum twice the masses: viscosity takes no more kinetic
+/// energy out than there is, and never cools (decision 0048). p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2),
+/// theta of either sign: the internal energy lags half a step (decision 0009). p = 0 in tension that the pair cannot
+/// bear: any where it has failed, beyond its spall strength elsewhere (decision 0006). Hourglass: f_I = - C gamma_I
+/// (sum_J gamma_J v_J), C = kappa m c / (4 L), gamma_I = Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1):
+/// orthogonal to linear fields. Flanagan & Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; VonNeumann &
+/// Richtmyer, J. Appl. Phys. 21 (1950) 232; Landshoff, LA-1930 (1955).
 void computeCornerForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                          View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work);
 

@@ -228,6 +228,8 @@ UpdateReport updatePairs(Mesh const &mesh, CellMaterialPairs const &pairs, PairS
   {
     report.range_cell = detail::valueAt(pairs.cell, result.first_out_of_range);
     report.range_material = detail::valueAt(pairs.material, result.first_out_of_range);
+    report.range_energy = detail::valueAt(state.record, result.first_out_of_range, InternalEnergy);
+    report.range_mass = detail::valueAt(state.record, result.first_out_of_range, Mass);
   }
   return report;
 }

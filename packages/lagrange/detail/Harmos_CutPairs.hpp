@@ -20,14 +20,26 @@ struct CutVelocityGradient
   KOKKOS_FORCEINLINE_FUNCTION T trace() const { return xx + yy + hoop; }
 };
 
+/// What the square of a filled region's extent lacks of its cell's, a symmetric tensor. [length^2]
+template <class T>
+struct LostExtent
+{
+  T xx, xy, yy;
+};
+
 /// Rows of a pack's pairs in the cut gradients; null where a pair has none.
 struct CutRows
 {
   double const *row[pack_width];
+  double const *lost[pack_width];
 
   KOKKOS_FORCEINLINE_FUNCTION Pack column(int k, CutGradientColumn which) const
   {
     return packOf([&](int lane) { return row[lane] == nullptr ? 0.0 : row[lane][3 * k + which]; });
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Pack lostColumn(LostExtentColumn which) const
+  {
+    return packOf([&](int lane) { return lost[lane] == nullptr ? 0.0 : lost[lane][which]; });
   }
 };
 
@@ -37,10 +49,11 @@ struct CutPairs
   int const *first_row; // null: there are none
   int const *offset;
   RowPointer<double, 12> gradient;
+  RowPointer<double, 3> lost_extent;
 
   CutPairs(CutGradients const &cut, CellMaterialPairs const &pairs)
       : first_row(cut.first_row.extent(0) > 0 ? cut.first_row.data() : nullptr), offset(pairs.offset.data()),
-        gradient(cut.gradient)
+        gradient(cut.gradient), lost_extent(cut.lost_extent)
   {
   }
 
@@ -61,7 +74,9 @@ struct CutPairs
     for (int lane = 0; lane < pack_width; ++lane)
     {
       int const first = first_row[cell[lane]];
-      rows.row[lane] = first < 0 ? nullptr : gradient.row(first + pair[lane] - offset[cell[lane]]);
+      int const row = first + pair[lane] - offset[cell[lane]];
+      rows.row[lane] = first < 0 ? nullptr : gradient.row(row);
+      rows.lost[lane] = first < 0 ? nullptr : lost_extent.row(row);
     }
     return rows;
   }
@@ -83,6 +98,32 @@ struct CutPairs
         g.hoop += rows.column(k, CutHoop) * v.x[k];
     }
     return g;
+  }
+
+  HARMOS_RARE_FUNCTION LostExtent<Pack> lostExtent(int const pair[pack_width], int const cell[pack_width]) const
+  {
+    CutRows const rows = rowsOf(pair, cell);
+    return {rows.lostColumn(LostExtentXX), rows.lostColumn(LostExtentXY), rows.lostColumn(LostExtentYY)};
+  }
+
+  /// sum_I |B_I|^2 / s_I of the filled regions, s_I the corners' shares of the mass, with the hoop's part: what a
+  /// pressure over the density changes tr D by, a second, where the nodes have no mass of others. [1/length^2]
+  template <Geometry geometry>
+  HARMOS_RARE_FUNCTION Pack answerToPressure(int const pair[pack_width], int const cell[pack_width],
+                                             Corners<Pack> const &x, RowPointer<double, 4> const &share) const
+  {
+    auto const b = cellGradient<geometry>(x);
+    ScaledStress<Pack> const unit = {1.0, 1.0, 0.0, 1.0};
+    Corners<Pack> f = stressForces(b, unit, HourglassVector<Pack>{0.0, 0.0}, Pack(0.0), Pack(0.0));
+    addForces<geometry>(pair, cell, unit, volumeOf(b), f);
+    Pack sum = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      Pack const of_mass =
+          geometry == Geometry::Planar ? Pack(0.25) : packOf([&](int lane) { return share(cell[lane], k); });
+      sum += (f.x[k] * f.x[k] + f.y[k] * f.y[k]) / of_mass;
+    }
+    return sum / (volumeOf(b) * volumeOf(b));
   }
 
   /// Forces of minus the stress (`s`, times the pair's over the cell's volume) on the corners, added to f.

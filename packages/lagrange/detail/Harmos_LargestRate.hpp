@@ -39,6 +39,13 @@ inline int valueAt(View<int *> const &view, int index)
   return value;
 }
 
+inline double valueAt(View<double *[num_pair_fields]> const &record, int pair, int field)
+{
+  double value = 0.0;
+  Kokkos::deep_copy(value, Kokkos::subview(record, pair, field));
+  return value;
+}
+
 /// Of the largest 1 / dt, by pair.
 inline TimeStepLimit limitFrom(LargestRate const &largest, CellMaterialPairs const &pairs)
 {

@@ -55,27 +55,71 @@ struct PairForces
   T pressure; // of the state alone, none in tension that the pair cannot bear
 };
 
+/// What a cut cell's pair has beyond its cell, or lacks.
+template <class T>
+struct CutPart
+{
+  CutVelocityGradient<T> gradient; // of the filled region, beyond the cell's mean
+  LostExtent<T> lost;
+  T answer; // answerToPressure
+};
+
+/// L^2 of the artificial viscosity over that of the whole cell: the squares of the extents of the filled region and of
+/// the cell along the direction n of the strongest compression, one over the other. With the deviator of the rate,
+/// a = (D_xx - D_yy) / 2, b = D_xy, and r = |(a, b)|: n n = (1 - ((a, b), (b, -a)) / r) / 2; where r = 0 the mean of
+/// all directions.
+///
+/// Kolev & Rieben, J. Comput. Phys. 228 (2009) 8336-8366: a length along the direction of compression.
+/// \param g Velocity gradient times the cell's volume.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T viscousPart(MeanGradient<T> const &plane, ScaledVelocityGradient<T> const &g,
+                                          T const &inverse_volume, CutPart<T> const &cut)
+{
+  T const a = 0.5 * ((g.xx - g.yy) * inverse_volume + (cut.gradient.xx - cut.gradient.yy));
+  T const b = 0.5 * ((g.xy + g.yx) * inverse_volume + (cut.gradient.xy + cut.gradient.yx));
+  T const r = Math::sqrt(T(a * a + b * b));
+  auto const directed = r > T(0.0);
+  T const inverse = select(directed, T(1.0 / select(directed, r, T(1.0))), T(0.0));
+  auto const alongTwice = [&](T const &xx, T const &xy, T const &yy)
+  { return T((xx + yy) - inverse * (a * (xx - yy) + 2.0 * b * xy)); };
+  // the mid-lines of the cell, p and q, turned by a right angle: p p + q q is its squared extent
+  T const px = plane.x1 - plane.x0, py = plane.y1 - plane.y0, qx = plane.x1 + plane.x0, qy = plane.y1 + plane.y0;
+  T const whole = alongTwice(T(py * py + qy * qy), T(-(px * py + qx * qy)), T(px * px + qx * qx));
+  T const lost = alongTwice(cut.lost.xx, cut.lost.xy, cut.lost.yy);
+  return 1.0 - Math::min(Math::max(T(lost / whole), T(0.0)), T(1.0));
+}
+
 /// Corner forces on the nodes (equations: computeCornerForces).
-/// \param cut_trace What tr D of the filled region has beyond the cell's mean [1/s].
+/// \param cut Null: none of these pairs is of a cut cell.
 template <Geometry geometry, class T>
-KOKKOS_FORCEINLINE_FUNCTION PairForces<T> pairForces(Material const &material, LagrangeOptions const &options,
-                                                     PairRecord<T> const &pair, Corners<T> const &x,
-                                                     Corners<T> const &v, Bearing<T> const &bearing, T const &cut_trace)
+KOKKOS_FORCEINLINE_FUNCTION PairForces<T>
+pairForces(Material const &material, LagrangeOptions const &options, PairRecord<T> const &pair, Corners<T> const &x,
+           Corners<T> const &v, Bearing<T> const &bearing, CutPart<T> const *cut)
 {
   auto const b = cellGradient<geometry>(x);
   MeanGradient<T> const &plane = planeOf(b);
   T const inverse_area = 1.0 / plane.area;
   T const inverse_volume = geometry == Geometry::Planar ? inverse_area : T(1.0 / volumeOf(b));
-  T const rate = traceOf(velocityGradient(b, v)); // volume * tr D
+  auto const g = velocityGradient(b, v); // times the volume
   EosState<T> const eos = equationOfState(material, pair.specific_volume, pair.internal_energy);
   T const c2 =
       longitudinalSoundSpeedSquared(material, eos.sound_speed_squared, pair.specific_volume, pair.internal_energy);
   T const c_length = Math::sqrt(T(c2 * plane.area));
 
+  T trace = traceOf(g) * inverse_volume; // tr D, of the ring where axisymmetric
+  T q_area = plane.area, q_length = c_length;
+  if (cut != nullptr)
+  {
+    trace = trace + cut->gradient.trace();
+    T const part = viscousPart(plane, g, inverse_volume, *cut);
+    q_area = q_area * part;
+    q_length = q_length * Math::sqrt(part);
+  }
   // sv q = c1 c L |theta| + c2 L^2 theta^2: the force volume m sv times q needs no density
-  T const trace = rate * inverse_volume + cut_trace; // tr D, of the ring where axisymmetric
   T const theta = Math::max(T(-trace), T(0.0));
-  T const sv_q = theta * (options.linear_viscosity * c_length + options.quadratic_viscosity * (plane.area * theta));
+  T sv_q = theta * (options.linear_viscosity * q_length + options.quadratic_viscosity * (q_area * theta));
+  if (cut != nullptr && options.kick > 0.0)
+    sv_q = Math::min(sv_q, T(2.0 * theta / (options.kick * cut->answer)));
   T const scaled_mass = pair.mass * inverse_volume;
   T const scaled_volume = scaled_mass * pair.specific_volume;
   // The internal energy is behind by `energy_lag`: de = - p sv tr D dt, dp = Gamma de / sv. In tension the lag damps.

@@ -30,6 +30,53 @@ auto forces(Scene &s)
   return onHost(s.work.corner_force);
 }
 
+/// The cut gradients of a scene whose last cell is cut to a region.
+void cutTopCell(Scene &s, int cell, std::vector<Vector2> const &vertices)
+{
+  Region part;
+  for (Vector2 const &vertex : vertices)
+    part.push(vertex);
+  std::vector<int> first(cell + 1, -1);
+  first[cell] = 0;
+  FilledRegions regions;
+  regions.num_mixed_cells = 1;
+  regions.mixed_cell = deviceCopy("mixed_cell", std::vector<int>{cell});
+  regions.cell_region = deviceCopy("cell_region", first);
+  regions.polygon = deviceCopy("polygon", std::vector<Region>{part});
+  s.options.cut_cell_stress = CutCellStress::FilledRegions;
+  computeCutGradients(s.mesh, s.pairs, s.state.record, regions, s.materials, s.options.cut_cell_stress,
+                      s.options.shortest_bent_edge, s.work.cut);
+}
+
+/// A unit cell with a film of thickness d of a fluid without pressure, void on both sides.
+Scene film(double d)
+{
+  Scene s = makeScene(
+      1, 1, 0.0, {fluid()},
+      [&](int, int) {
+        return std::vector<Fill>{{0, d}};
+      },
+      Kinematics::Xfem);
+  cutTopCell(s, 0, {Vector2{0.0, 0.4}, Vector2{1.0, 0.4}, Vector2{1.0, 0.4 + d}, Vector2{0.0, 0.4 + d}});
+  s.options.hourglass_viscosity = 0.0;
+  prepareWork(s.pairs, s.dof_nodes, s.work);
+  return s;
+}
+
+/// - sum f . (mean of the velocities before and after a step of `kick`), of one pair whose nodes have its mass alone.
+double heat(Scene &s, double kick)
+{
+  auto const f = forces(s);
+  auto const v = onHost(s.state.velocity);
+  auto const dof = onHost(s.pairs.dof_node);
+  double const corner_mass = 0.25 * onHost(s.state.record)(0, Mass);
+  double sum = 0.0;
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 2; ++i)
+      sum -= f(0, 2 * k + i) * (v(dof(0, k), i) + 0.5 * kick * f(0, 2 * k + i) / corner_mass);
+  return sum;
+}
+
 } // namespace
 
 TEST(CornerForces, UniformStressOnDistortedMesh_leavesInnerNodesInBalance)
@@ -103,6 +150,46 @@ TEST(CornerForces, Compression_addsLinearAndQuadraticViscosity)
   double const q = 2.0 * (0.06 * 3.0 * rate + 1.2 * rate * rate);
   EXPECT_NEAR(f(0, 2), 0.5 * q, 1e-15); // corner 1: B = (1, -1) / 2
   EXPECT_NEAR(f(0, 3), -0.5 * q, 1e-15);
+}
+
+TEST(CornerForces, ViscosityOfAFilm_worksOverItsThicknessAcrossItAndOverItsCellAlongIt)
+{
+  double const d = 0.01, rate = 0.7, speed = 3.0;
+  for (int along : {0, 1})
+  {
+    Scene s = film(d);
+    s.setVelocity([&](int, Vector2 x) { return along == 1 ? Vector2{-rate * x[0], 0.0} : Vector2{0.0, -rate * x[1]}; });
+    double const length = along == 1 ? 1.0 : d;
+    double const q = 2.0 * (0.06 * speed * length * rate + 1.2 * length * length * rate * rate);
+    EXPECT_NEAR(heat(s, 0.0), q * d * rate, 1e-10 * q * d * rate) << along;
+  }
+}
+
+TEST(CornerForces, ViscosityBesideAFullCell_worksOverAWholeCell)
+{
+  Scene s = makeScene(
+      1, 2, 0.0, {fluid()},
+      [](int, int j) {
+        return std::vector<Fill>{{0, j == 0 ? 1.0 : 0.3}};
+      },
+      Kinematics::Xfem);
+  cutTopCell(s, 1, {Vector2{0.0, 1.0}, Vector2{1.0, 1.0}, Vector2{1.0, 1.3}, Vector2{0.0, 1.3}});
+  auto const lost = onHost(s.work.cut.lost_extent);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(lost(0, k), 0.0, 1e-14);
+}
+
+TEST(CornerForces, ViscosityOfAFilm_neverCools)
+{
+  Scene s = film(0.01);
+  s.setVelocity([](int, Vector2 x) { return Vector2{-7.0 * x[0], -7.0 * x[1] + 3.0 * x[0]}; });
+  double const free = heat(s, 0.0);
+  for (double const kick : {1e-3, 0.1, 10.0})
+  {
+    s.options.kick = kick;
+    EXPECT_GT(heat(s, kick), -1e-12 * free) << kick;
+  }
+  EXPECT_NEAR(heat(s, 10.0), 0.0, 1e-12 * free); // what it may take at most: the compression is reversed
 }
 
 TEST(CornerForces, EnergyThatLags_isMadeUpForInThePressure)

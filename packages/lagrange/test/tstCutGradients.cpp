@@ -297,6 +297,22 @@ TEST(CutGradients, ofAWholeCellAreNothingBeyondItsMean)
   }
 }
 
+TEST(CutGradients, lostExtent_isWhatARegionLacksOfItsCell)
+{
+  Region const film = polygon({{2.0, 1.1}, {2.4, 1.1}, {2.4, 1.103}, {2.0, 1.103}});
+  Region const whole = polygon({{2.0, 1.0}, {2.4, 1.0}, {2.4, 1.3}, {2.0, 1.3}});
+  Region const thread = polygon({{2.0, 1.1}, {2.4, 1.1}, {2.4, 1.1 + 1e-8}, {2.0, 1.1 + 1e-8}});
+  double const lost[3][2] = {{0.0, 0.09 - 9e-6}, {0.0, 0.0}, {0.0, 0.09}};
+  Region const part[3] = {film, whole, thread};
+  for (int i = 0; i < 3; ++i)
+  {
+    auto const e = Harmos::onHost(CutCell(Geometry::Planar, {part[i]}).cut.lost_extent);
+    EXPECT_NEAR(e(0, LostExtentXX), lost[i][0], 1e-14);
+    EXPECT_NEAR(e(0, LostExtentXY), 0.0, 1e-14);
+    EXPECT_NEAR(e(0, LostExtentYY), lost[i][1], 1e-14);
+  }
+}
+
 TEST(CutGradients, ofAThreadAndOfNothingAreFinite)
 {
   for (Geometry const geometry : {Geometry::Planar, Geometry::Axisymmetric})

@@ -168,6 +168,8 @@ TEST(UpdatePairs, PairsOutOfTheirLawsRange_areCountedAndTheFirstIsNamed)
   EXPECT_EQ(report.out_of_range, 2);
   EXPECT_EQ(report.range_cell, 4);
   EXPECT_EQ(report.range_material, 0);
+  EXPECT_EQ(report.range_energy, -1.0);
+  EXPECT_EQ(report.range_mass, onHost(s.state.record)(4, Mass));
   EXPECT_EQ(report.not_a_number, 0);
   EXPECT_EQ(report.cell, -1);
 }
