@@ -169,7 +169,8 @@ void computeDofMass(Mesh const &mesh, CellMaterialPairs const &pairs, NodeMateri
 ///   q <= 2 rho |theta| / (kick sum_I |B_I|^2 / s_I), s_I the corners' shares,
 ///
 /// so that m kick (q / rho) B B^T / |theta| <= 2 diag(m s_I), in sum twice the masses: viscosity takes no more kinetic
-/// energy out than there is, and never cools (decision 0048). p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2),
+/// energy out than there is, and never cools (decision 0048; about an axis B_r counts as in the plane, by up to a
+/// quarter less in the first column). p* = p - max(p, 0) min(Gamma theta energy_lag, 1/2),
 /// theta of either sign: the internal energy lags half a step (decision 0009). p = 0 in tension that the pair cannot
 /// bear: any where it has failed, beyond its spall strength elsewhere (decision 0006). Hourglass: f_I = - C gamma_I
 /// (sum_J gamma_J v_J), C = kappa m c / (4 L), gamma_I = Gamma_I - (sum_J Gamma_J x_J) . B_I, Gamma = (1, -1, 1, -1):

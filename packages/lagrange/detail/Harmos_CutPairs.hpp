@@ -107,7 +107,9 @@ struct CutPairs
   }
 
   /// sum_I |B_I|^2 / s_I of the filled regions, s_I the corners' shares of the mass, with the hoop's part: what a
-  /// pressure over the density changes tr D by, a second, where the nodes have no mass of others. [1/length^2]
+  /// pressure over the density changes tr D by, a second, where the nodes have no mass of others. About an axis the
+  /// radial part counts by what a whole cell of the plane has over a whole one there (at the axis two thirds), so that
+  /// columns of cells along it are alike. [1/length^2]
   template <Geometry geometry>
   HARMOS_RARE_FUNCTION Pack answerToPressure(int const pair[pack_width], int const cell[pack_width],
                                              Corners<Pack> const &x, RowPointer<double, 4> const &share) const
@@ -116,14 +118,22 @@ struct CutPairs
     ScaledStress<Pack> const unit = {1.0, 1.0, 0.0, 1.0};
     Corners<Pack> f = stressForces(b, unit, HourglassVector<Pack>{0.0, 0.0}, Pack(0.0), Pack(0.0));
     addForces<geometry>(pair, cell, unit, volumeOf(b), f);
-    Pack sum = 0.0;
+    Pack along_x = 0.0, along_y = 0.0, of_cell = 0.0;
     for (int k = 0; k < 4; ++k)
     {
       Pack const of_mass =
           geometry == Geometry::Planar ? Pack(0.25) : packOf([&](int lane) { return share(cell[lane], k); });
-      sum += (f.x[k] * f.x[k] + f.y[k] * f.y[k]) / of_mass;
+      along_x += f.x[k] * f.x[k] / of_mass;
+      along_y += f.y[k] * f.y[k] / of_mass;
+      if constexpr (geometry == Geometry::Axisymmetric)
+        of_cell += (b.x[k] + b.hoop[k]) * (b.x[k] + b.hoop[k]) / of_mass;
     }
-    return sum / (volumeOf(b) * volumeOf(b));
+    if constexpr (geometry == Geometry::Axisymmetric)
+    {
+      Pack const per_area = volumeOf(b) / b.plane.area;
+      along_x = along_x * (8.0 * (b.plane.x0 * b.plane.x0 + b.plane.x1 * b.plane.x1) * per_area * per_area / of_cell);
+    }
+    return (along_x + along_y) / (volumeOf(b) * volumeOf(b));
   }
 
   /// Forces of minus the stress (`s`, times the pair's over the cell's volume) on the corners, added to f.
