@@ -32,7 +32,8 @@ ContactRows buildContactRows(Mesh const &mesh, CellMaterialPairs const &pairs, N
       bins,
       before,
       dt,
-      findCornerContacts(mesh, pairs, segments, hit, bins, bodies, bearing, options, bonded, before, dt, work)};
+      findCornerContacts(mesh, pairs, segments, hit, bins, bodies, bearing, options, bonded, before, dt,
+                         conditions.boundary, work)};
   View<PlannedRows *> const planned = work.unset<PlannedRows *>("Harmos::constrain::planned", segments.count);
   launchFor(
       "Harmos::constrain::planRows", segments.count, KOKKOS_LAMBDA(int i) { builder.plan(i, planned(i)); });

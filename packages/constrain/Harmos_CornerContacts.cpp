@@ -31,6 +31,7 @@ struct CornerFinder
   BondedPlaces bonded;
   Motion before;
   double dt;
+  View<Boundary *> boundary;
 
   KOKKOS_INLINE_FUNCTION bool isSolid(int material) const { return material >= 0 && !bearing.presses(material); }
 
@@ -215,7 +216,7 @@ struct CornerFinder
     Vector2 n{0.0, 0.0};
     if (isRigid(face.material))
       n = bodies.surfaces.normalAt(bodies.of(face.material), face.midpoint, face.normal, face.cell_size, foot);
-    return n[0] == 0.0 && n[1] == 0.0 ? sideNormal(bins, face, foot) : n;
+    return n[0] == 0.0 && n[1] == 0.0 ? sideNormal(bins, {mesh, boundary, face.cell, mirrored_rows}, face, foot) : n;
   }
 
   /// Give a corner the nearest face below it, within one cell size. Where a rigid one has made a dent that is the face
@@ -313,10 +314,12 @@ void giveToCarriers(CornerFinder const &finder, CornerContacts &corners, WorkArr
 CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pairs, InterfaceSegments const &segments,
                                   View<RayHit *> const &hit, SegmentBins const &bins, BodyTable const &bodies,
                                   SegmentBearing const &bearing, ConstraintOptions const &options,
-                                  BondedPlaces const &bonded, Motion const &before, double dt, WorkArrays const &work)
+                                  BondedPlaces const &bonded, Motion const &before, double dt,
+                                  View<Boundary *> const &boundary, WorkArrays const &work)
 {
   CornerFinder const finder{mesh,   pairs,   segments, segments.segment, hit,    bins,
-                            bodies, bearing, options,  bonded,           before, dt};
+                            bodies, bearing, options,  bonded,           before, dt,
+                            boundary};
   View<int *> const leading = work.unset<int *>("Harmos::constrain::before_corner", segments.count);
   CornerContacts corners;
   launchScan(

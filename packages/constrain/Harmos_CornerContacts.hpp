@@ -61,7 +61,7 @@ CornerContacts findCornerContacts(Mesh const &mesh, CellMaterialPairs const &pai
                                   View<RayHit *> const &hit, SegmentBins const &bins, BodyTable const &bodies,
                                   SegmentBearing const &bearing, ConstraintOptions const &options,
                                   BondedPlaces const &bonded, Motion const &before, double dt,
-                                  WorkArrays const &work = {});
+                                  View<Boundary *> const &boundary, WorkArrays const &work = {});
 
 /// Whether a corner rebounds from the face, of a body or a contact wall, that it touches.
 KOKKOS_INLINE_FUNCTION bool cornerRebounds(Mesh const &mesh, View<Boundary *> const &boundary,
@@ -72,24 +72,29 @@ KOKKOS_INLINE_FUNCTION bool cornerRebounds(Mesh const &mesh, View<Boundary *> co
                             : interaction(corner.material, face.material).restitution) > 0.0;
 }
 
-/// The normal of a body at a point of a segment of its outline: of the parabola through its segments around that
-/// (fitNormal).
-KOKKOS_INLINE_FUNCTION Vector2 sideNormal(SegmentBins const &bins, InterfaceSegment const &s, Vector2 const &point)
+/// The normal of a body at a point of a segment of its outline: of the parabola through its segments around that, and
+/// their images beyond slip walls (fitNormal).
+KOKKOS_INLINE_FUNCTION Vector2 sideNormal(SegmentBins const &bins, SlipMirrors const &mirrors,
+                                          InterfaceSegment const &s, Vector2 const &point)
 {
-  FitSamples samples;
+  FitSamples samples, all;
   double const inverse_h = 1.0 / s.cell_size;
-  Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
-  bins.forEach(point - reach, point + reach,
-               [&](int, BinnedSegment const &other)
-               {
-                 Vector2 const offset = inverse_h * (other.midpoint - point);
-                 double const kernel = 1.0 - dot(offset, offset) / (fit_reach * fit_reach);
-                 if (other.material != s.material || !(kernel > 0.0) || dot(other.normal, s.normal) < fit_least_cosine)
-                   return;
-                 double const length = inverse_h * other.length;
-                 samples.push({offset, other.normal, length, length * kernel * kernel, 0.0, 0});
-               });
-  return fitNormal(samples, s.normal, true);
+  forEachWithImages(bins, mirrors, point, fit_reach * s.cell_size,
+                    [&](BinnedSegment const &other, int image)
+                    {
+                      Vector2 const offset = inverse_h * (other.midpoint - point);
+                      double const kernel = 1.0 - dot(offset, offset) / (fit_reach * fit_reach);
+                      if (other.material != s.material || !(kernel > 0.0) ||
+                          dot(other.normal, s.normal) < fit_least_cosine)
+                        return;
+                      double const length = inverse_h * other.length;
+                      FitSample const sample{offset, other.normal, length, length * kernel * kernel, 0.0, 0};
+                      all.push(sample);
+                      if (image < 0)
+                        samples.push(sample);
+                    });
+  return all.count == samples.count ? fitNormal(samples, s.normal, true)
+                                    : fitBesideMirror(samples, all, s.normal, true);
 }
 
 } // namespace Harmos

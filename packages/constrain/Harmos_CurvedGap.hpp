@@ -4,6 +4,7 @@
 
 #include <Harmos_NormalFit.hpp>
 #include <Harmos_SegmentBins.hpp>
+#include <Harmos_SlipMirrors.hpp>
 
 namespace Harmos
 {
@@ -11,7 +12,7 @@ namespace Harmos
 /// The facets of one side in one cell, as sums by length in the frame (t, n) of a point; lengths in cells.
 struct CellFacets
 {
-  int cell;
+  int cell, image; // image: -1, or of the cell's mirror images
   double length, t, y, tt, ty;
 };
 
@@ -23,10 +24,10 @@ struct SideFacets
   bool overflown = false;
   CellFacets of_cell[most_cells];
 
-  KOKKOS_INLINE_FUNCTION void add(int cell, double length, double t, double y, double slope)
+  KOKKOS_INLINE_FUNCTION void add(int cell, int image, double length, double t, double y, double slope)
   {
     int k = 0;
-    while (k < count && of_cell[k].cell != cell)
+    while (k < count && (of_cell[k].cell != cell || of_cell[k].image != image))
       ++k;
     if (k == most_cells)
     {
@@ -34,7 +35,7 @@ struct SideFacets
       return;
     }
     if (k == count)
-      of_cell[count++] = {cell, 0.0, 0.0, 0.0, 0.0, 0.0};
+      of_cell[count++] = {cell, image, 0.0, 0.0, 0.0, 0.0, 0.0};
     CellFacets &c = of_cell[k];
     double const spread = length * length / 12.0;
     c.length += length;
@@ -147,28 +148,30 @@ KOKKOS_INLINE_FUNCTION SideArc fitSide(SideFacets const &side)
 /// A chord that the other side's facet cuts off at one end holds its volume by standing out more: up to twice standOut,
 /// where both sides are even.
 ///
+/// \param mirrors Of the segment's cell: what lies beyond slip walls counts too.
 /// \param at Segment whose point it is, of the side that n leaves.
 /// \param other Material of the other side.
 /// \param n Unit normal of contact there.
 /// \return Zero where a side is not smooth, and where the ends of chords cannot explain that they meet.
-KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegment const &at, int other,
-                                        Vector2 const &n)
+KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, SlipMirrors const &mirrors, InterfaceSegment const &at,
+                                        int other, Vector2 const &n)
 {
   constexpr double apart = 1.0;                                    // most height of a facet [cells]
   double const h = at.cell_size, box = (SideArc::reach + 1.0) * h; // of midpoints
   SideFacets side[2];
-  bins.forEach(at.point - Vector2{box, box}, at.point + Vector2{box, box},
-               [&](int, BinnedSegment const &s)
-               {
-                 if (s.material != at.material && s.material != other)
-                   return;
-                 bool const own = s.material == at.material;
-                 Vector2 const outward = own ? s.normal : -s.normal, d = (1.0 / h) * (s.midpoint - at.point);
-                 double const along = dot(outward, n), height = dot(d, n), t = cross(d, n);
-                 if (along < fit_least_cosine || Math::fabs(height) > apart || Math::fabs(t) > SideArc::reach + 1.0)
-                   return;
-                 side[own ? 0 : 1].add(s.cell, along * s.length / h, t, height, cross(n, outward) / along);
-               });
+  forEachWithImages(bins, mirrors, at.point, box,
+                    [&](BinnedSegment const &s, int image)
+                    {
+                      if (s.material != at.material && s.material != other)
+                        return;
+                      bool const own = s.material == at.material;
+                      Vector2 const outward = own ? s.normal : -s.normal, d = (1.0 / h) * (s.midpoint - at.point);
+                      double const along = dot(outward, n), height = dot(d, n), t = cross(d, n);
+                      if (along < fit_least_cosine || Math::fabs(height) > apart ||
+                          Math::fabs(t) > SideArc::reach + 1.0)
+                        return;
+                      side[own ? 0 : 1].add(s.cell, image, along * s.length / h, t, height, cross(n, outward) / along);
+                    });
   SideArc const a = fitSide(side[0]), b = fitSide(side[1]);
   double const gap = b.height - a.height, opening = b.curvature - a.curvature;
   double const most = (a.even && b.even ? 2.0 : 1.0) * standOut(opening);
@@ -181,20 +184,23 @@ KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, InterfaceSegmen
 /// With the arc's height alpha below the corner and its curvature gamma, in cells h: -alpha h, where the side is smooth
 /// and that is more than the gap by at most -gamma h / 6, what the end of a chord stands out; else the gap as it is.
 ///
-/// \param face Segment at the foot. \param n Unit normal of its side there. \param gap To the facet. [length]
-KOKKOS_INLINE_FUNCTION double gapAboveArc(SegmentBins const &bins, InterfaceSegment const &face, Vector2 const &corner,
-                                          Vector2 const &n, double gap)
+/// \param mirrors Of the face's cell. \param face Segment at the foot. \param n Unit normal of its side there. \param
+/// gap To the facet. [length]
+KOKKOS_INLINE_FUNCTION double gapAboveArc(SegmentBins const &bins, SlipMirrors const &mirrors,
+                                          InterfaceSegment const &face, Vector2 const &corner, Vector2 const &n,
+                                          double gap)
 {
   double const h = face.cell_size, box = (SideArc::reach + 1.0) * h;
   SideFacets side;
-  bins.forEach(corner - Vector2{box, box}, corner + Vector2{box, box},
-               [&](int, BinnedSegment const &s)
-               {
-                 Vector2 const d = (1.0 / h) * (s.midpoint - corner);
-                 double const along = dot(s.normal, n), t = cross(d, n);
-                 if (s.material == face.material && along >= fit_least_cosine && Math::fabs(t) <= SideArc::reach + 1.0)
-                   side.add(s.cell, along * s.length / h, t, dot(d, n), cross(n, s.normal) / along);
-               });
+  forEachWithImages(bins, mirrors, corner, box,
+                    [&](BinnedSegment const &s, int image)
+                    {
+                      Vector2 const d = (1.0 / h) * (s.midpoint - corner);
+                      double const along = dot(s.normal, n), t = cross(d, n);
+                      if (s.material == face.material && along >= fit_least_cosine &&
+                          Math::fabs(t) <= SideArc::reach + 1.0)
+                        side.add(s.cell, image, along * s.length / h, t, dot(d, n), cross(n, s.normal) / along);
+                    });
   SideArc const arc = fitSide(side);
   double const beyond = -arc.height * h - gap;
   return arc.smooth && beyond > 0.0 && beyond <= standOut(-arc.curvature) * h ? gap + beyond : gap;

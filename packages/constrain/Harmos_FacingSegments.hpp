@@ -4,6 +4,7 @@
 
 #include <Harmos_NormalFit.hpp>
 #include <Harmos_RayCast.hpp>
+#include <Harmos_SlipMirrors.hpp>
 
 namespace Harmos
 {
@@ -35,6 +36,18 @@ struct FacingSegments
 FacingSegments facingSegments(View<InterfaceSegment *> const &segment, View<RayHit *> const &hit,
                               SegmentBins const &bins, WorkArrays const &work = {});
 
+/// A segment as the images of others see it.
+KOKKOS_INLINE_FUNCTION InterfaceSegment mirrored(InterfaceSegment s, MirrorImage const &image)
+{
+  s.midpoint = image.point(s.midpoint);
+  s.point = image.point(s.point);
+  s.normal = image.direction(s.normal);
+  s.cell_centre = image.point(s.cell_centre);
+  for (Vector2 &along : s.lattice)
+    along = image.direction(along);
+  return s;
+}
+
 /// Gathers the samples of a fit at a segment's point, pack by pack.
 struct SampleGatherer
 {
@@ -59,6 +72,19 @@ struct SampleGatherer
   {
     for (int i = begin; i < end; i += pack_width)
       take(i, end);
+  }
+
+  /// Samples from number `first` on, which were taken for the image of the point, as images around the point.
+  KOKKOS_INLINE_FUNCTION void mirror(MirrorImage const &image, int first) const
+  {
+    int kept = first;
+    for (int j = first; j < samples.count; ++j)
+    {
+      Vector2 const offset{samples.x[j], samples.y[j]};
+      if (image.reflects(at.point + at.cell_size * offset)) // which is where the segment is
+        samples.mirror(j, kept++, image.direction(offset), image.direction({samples.normal_x[j], samples.normal_y[j]}));
+    }
+    samples.count = kept;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void take(int i, int end) const
@@ -89,43 +115,63 @@ struct SampleGatherer
 
 /// Length of the segments of two materials, both sides together, that lie on each other within two cells of a segment's
 /// point. [cells]
-KOKKOS_INLINE_FUNCTION double touchingLength(FacingSegments const &facing, InterfaceSegment const &s, int other)
+/// \param mirrors Of the cell of s; images count.
+KOKKOS_INLINE_FUNCTION double touchingLength(FacingSegments const &facing, SlipMirrors const &mirrors,
+                                             InterfaceSegment const &s, int other)
 {
   constexpr double reach = 2.0; // [cells]
   Vector2 const box{reach * s.cell_size, reach * s.cell_size};
   Pack const a = s.material, b = other, least = touching_gap * s.cell_size, zero = 0.0;
   Pack sum = 0.0;
-  facing.bins.forEachRun(s.point - box, s.point + box,
-                         [&](int begin, int end)
-                         {
-                           for (int i = begin; i < end; i += pack_width)
+  for (int image = -1; image < mirrors.count; ++image)
+  {
+    Vector2 const at = image < 0 ? s.point : mirrors.image[image].point(s.point);
+    facing.bins.forEachRun(at - box, at + box,
+                           [&](int begin, int end)
                            {
-                             Pack const x = loadPack(&facing.column(FacingX, i)) - Pack(s.point[0]);
-                             Pack const y = loadPack(&facing.column(FacingY, i)) - Pack(s.point[1]);
-                             Pack const of = loadPack(&facing.column(FacingMaterial, i));
-                             Pack const faced = loadPack(&facing.column(FacedMaterial, i));
-                             auto const theirs = either(both(of == a, faced == b), both(of == b, faced == a));
-                             auto const near =
-                                 both(x * x + y * y <= Pack(box[0] * box[0]), laneNumbers() < Pack(end - i));
-                             auto const lies = both(theirs, loadPack(&facing.column(FacingGap, i)) <= least);
-                             sum += select(both(near, lies), loadPack(&facing.column(FacingLength, i)), zero);
-                           }
-                         });
+                             for (int i = begin; i < end; i += pack_width)
+                             {
+                               Pack const x = loadPack(&facing.column(FacingX, i)) - Pack(at[0]);
+                               Pack const y = loadPack(&facing.column(FacingY, i)) - Pack(at[1]);
+                               Pack const of = loadPack(&facing.column(FacingMaterial, i));
+                               Pack const faced = loadPack(&facing.column(FacedMaterial, i));
+                               auto const theirs = either(both(of == a, faced == b), both(of == b, faced == a));
+                               auto const near =
+                                   both(x * x + y * y <= Pack(box[0] * box[0]), laneNumbers() < Pack(end - i));
+                               auto const lies = both(theirs, loadPack(&facing.column(FacingGap, i)) <= least);
+                               sum += select(both(near, lies), loadPack(&facing.column(FacingLength, i)), zero);
+                             }
+                           });
+  }
   return laneSum(sum) / s.cell_size;
 }
 
 /// Contact normal at a segment's point, from the segments of the two materials in the 7 x 7 cells around it.
 /// `target` is what the ray of s (a segment or a part of one) meets, a segment of another material (no wall).
+/// \param mirrors Of the cell of s: images beyond slip walls are samples too.
 /// \param rough As of fitNormal.
 KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &segment, FacingSegments const &facing,
-                                             double shortest, InterfaceSegment const &s, int target, bool rough)
+                                             SlipMirrors const &mirrors, double shortest, InterfaceSegment const &s,
+                                             int target, bool rough)
 {
   FitSamples samples;
   Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
-  facing.bins.forEachRun(s.point - reach, s.point + reach,
-                         SampleGatherer{facing, s, static_cast<double>(s.material),
-                                        static_cast<double>(segment(target).material), shortest, samples});
-  return fitNormal(samples, normalised(s.normal - segment(target).normal), rough);
+  double const a = s.material, b = segment(target).material;
+  facing.bins.forEachRun(s.point - reach, s.point + reach, SampleGatherer{facing, s, a, b, shortest, samples});
+  Vector2 const fallback = normalised(s.normal - segment(target).normal);
+  if (mirrors.count == 0)
+    return fitNormal(samples, fallback, rough);
+  FitSamples all = samples;
+  for (int i = 0; i < mirrors.count; ++i)
+  {
+    InterfaceSegment const at = mirrored(s, mirrors.image[i]);
+    SampleGatherer const gatherer{facing, at, a, b, shortest, all};
+    int const first = all.count;
+    facing.bins.forEachRun(at.point - reach, at.point + reach, gatherer);
+    gatherer.mirror(mirrors.image[i], first);
+  }
+  return all.count == samples.count ? fitNormal(samples, fallback, rough)
+                                    : fitBesideMirror(samples, all, fallback, rough);
 }
 
 } // namespace Harmos

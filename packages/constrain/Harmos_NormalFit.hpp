@@ -40,6 +40,12 @@ struct FitSamples
     return true;
   }
 
+  /// Sample j, at another place and with another normal, as number `to` (at most j).
+  KOKKOS_INLINE_FUNCTION void mirror(int j, int to, Vector2 const &offset, Vector2 const &normal)
+  {
+    set(to, {offset, normal, length[j], weight[j], gap[j], of_b[j] > 0.5 ? 1 : 0});
+  }
+
   /// The chosen lanes of a pack of samples, as far as there is room.
   KOKKOS_FORCEINLINE_FUNCTION void pushPack(unsigned lanes, Pack const &its_x, Pack const &its_y,
                                             Pack const &its_normal_x, Pack const &its_normal_y, Pack const &its_length,
@@ -375,8 +381,8 @@ KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
 ///              Beside a corner of one body inside of another the mean is that of both faces: where it leaves a large
 ///              misfit, and what lies within 45 degrees of `fallback` is a smooth face (isFace), the passes begin with
 ///              that one.
-/// \return Unit normal from a to b.
-KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
+/// \return Unit normal from a to b; no misfit where it is the fallback.
+KOKKOS_INLINE_FUNCTION NormalGuess guessNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
 {
   constexpr double large_misfit = 0.05; // root mean square [cells]
   samples.fillPack();
@@ -394,12 +400,28 @@ KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fal
   Vector2 const mean{laneSum(mean_x), laneSum(mean_y)};
   double const total = laneSum(weights);
   if (!(norm(mean) > 0.0))
-    return fallback;
+    return {fallback, 0.0};
   FitFrame frame;
   NormalGuess const guess = turnNormal(samples, normalised(mean), total, rough, frame);
   if (rough && guess.misfit > large_misfit * large_misfit && isFace(samples, fallback, frame))
-    return turnNormal(samples, fallback, total, rough, frame).normal;
-  return guess.normal;
+    return turnNormal(samples, fallback, total, rough, frame);
+  return guess;
+}
+
+KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
+{
+  return guessNormal(samples, fallback, rough).normal;
+}
+
+/// The normal where `samples` end at a mirror, beyond which are those of `all` that these lack, their images. An
+/// interface that meets the mirror at a right angle goes on smoothly as its image; another one has a kink there, and
+/// across that an arc would lean to the mean of both legs: it keeps to its own.
+KOKKOS_INLINE_FUNCTION Vector2 fitBesideMirror(FitSamples &samples, FitSamples &all, Vector2 const &fallback,
+                                               bool rough)
+{
+  constexpr double smooth = 0.01, worse = 2.0; // root mean square misfit [cells]; over that of the samples alone
+  NormalGuess const alone = guessNormal(samples, fallback, rough), both = guessNormal(all, fallback, rough);
+  return both.misfit <= Math::max(smooth * smooth, worse * worse * alone.misfit) ? both.normal : alone.normal;
 }
 
 } // namespace Harmos

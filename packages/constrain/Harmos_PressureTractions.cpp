@@ -54,6 +54,7 @@ KOKKOS_INLINE_FUNCTION RayHit hitBeside(RowBuilder const &builder, int i)
 struct FacetPressure
 {
   Mesh mesh;
+  View<Boundary *> boundary;
   CellMaterialPairs pairs;
   View<double *[3]> pressure; // PairStress::pressure
 
@@ -62,7 +63,7 @@ struct FacetPressure
   {
     int const own = pairs.find(cell, material);
     return pressureAround(
-        mesh, pairs, cell, material, Math::max(pressure(own, 0), 0.0), pressure(own, 1),
+        mesh, boundary, pairs, cell, material, Math::max(pressure(own, 0), 0.0), pressure(own, 1),
         [this](int pair) { return pressure(pair, 0); }, [this](int pair) { return pressure(pair, 1); });
   }
 
@@ -93,7 +94,7 @@ struct TractionFinder
     if (b.material < 0)
       return true;
     bool const two_fluids = builder.bearing.isPressed(b);
-    if (two_fluids && (builder.mesh.geometry != Geometry::Planar || !builder.isSlave(a, b)))
+    if (two_fluids && !builder.isSlave(a, b))
       return false;
     return !builder.areBonded(a, b) && builder.haveOwnNodes(a);
   }
@@ -125,22 +126,6 @@ struct TractionFinder
     if (carrier < 0)
       return {0.0, 0.0};
     return carrier == facet ? planned(facet).normal[0] : -planned(carrier).normal[0];
-  }
-
-  /// Whether a cell has a corner on the axis of an axisymmetric mesh.
-  KOKKOS_INLINE_FUNCTION bool isOnAxis(int cell) const
-  {
-    constexpr double round_off = 1e-9; // [cells]
-    if (builder.mesh.geometry == Geometry::Planar)
-      return false;
-    Quadrilateral const q = cellQuadrilateral(builder.mesh, cell);
-    double const least = Math::min(Math::min(q[0][0], q[1][0]), Math::min(q[2][0], q[3][0]));
-    return least <= round_off * Math::sqrt(builder.mesh.cell_area(cell));
-  }
-
-  KOKKOS_INLINE_FUNCTION bool facesOnAxis(RayHit const &hit) const
-  {
-    return isOnAxis(builder.segment(hit.segment).cell);
   }
 
   /// Number k of segment i: 0 of its own pressure, 1 and 2 of its rows. None in tension and through void.
@@ -177,12 +162,11 @@ private:
   KOKKOS_INLINE_FUNCTION Vector2 partOfPressure(int i, int k) const
   {
     constexpr double round_off = 1e-9; // of normals
-    int const cell = builder.segment(i).cell;
-    if (builder.mesh.cell_depth(cell) != 0 || isOnAxis(cell))
+    if (builder.mesh.cell_depth(builder.segment(i).cell) != 0)
       return {0.0, 0.0};
     if (k > 0)
-      return {k <= planned(i).count && !facesOnAxis(planned(i).hit[k - 1]) && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
-    if (!isPressed(i) || facesOnAxis(hit(i)))
+      return {k <= planned(i).count && isUnmatched(i, k - 1) ? -1.0 : 0.0, 0.0};
+    if (!isPressed(i))
       return {0.0, 0.0};
     Vector2 const n = builder.segment(i).normal, rest = n - rowNormal(i);
     return norm(rest) < round_off ? Vector2{0.0, 0.0} : Vector2{dot(n, rest), dot(perpendicular(n), rest)};
@@ -259,7 +243,7 @@ PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedR
                            !touches(builder.segment(i), builder.hit(i));
         hit(i) = alone ? hitBeside(builder, i) : builder.hit(i);
       });
-  TractionFinder const finder{builder, planned, hit, {builder.mesh, builder.pairs, pressure}};
+  TractionFinder const finder{builder, planned, hit, {builder.mesh, builder.boundary, builder.pairs, pressure}};
   View<PlannedTraction *[most]> const traction =
       work.unset<PlannedTraction *[most]>("Harmos::constrain::traction", count);
   View<int *> const place = work.unset<int *>("Harmos::constrain::traction_place", count);

@@ -41,8 +41,8 @@ struct PressureTractions
   View<double *> speed;       // num_own: sqrt(p / density) of the (lighter) fluid [m/s]
 };
 
-/// The tractions of the segments of owned cells. Of two fluids the slave's facets count, about an axis none; bonded
-/// pairs, and cells with a corner on an axis, have none. The caller sums num_multipliers and exchanges the rows.
+/// The tractions of the segments of owned cells. Of two fluids the slave's facets count; bonded pairs have none. The
+/// caller sums num_multipliers and exchanges the rows.
 /// \param planned The rows of each segment. \param pressure PairStress::pressure
 PressureTractions findPressureTractions(RowBuilder const &builder, View<PlannedRows *> const &planned,
                                         View<double *[3]> const &pressure, WorkArrays const &work);

@@ -90,6 +90,8 @@ struct RowBuilder
            !(bearing.balance(a, b) == ShortSegments::Shared && pass(a, b));
   }
 
+  KOKKOS_INLINE_FUNCTION SlipMirrors mirrorsOf(int cell) const { return {mesh, boundary, cell, mirrored_rows}; }
+
   KOKKOS_INLINE_FUNCTION JoinedSegments joinedSegments() const { return {mesh, segments.count, segment, hit, bearing}; }
 
   /// Whether segment i carries a row, if its line is long enough.
@@ -134,7 +136,7 @@ struct RowBuilder
     bool const pressed = isPressed(a, b);
     Vector2 n = exactNormal(a, b);
     if (n[0] == 0.0 && n[1] == 0.0)
-      n = contactNormal(segment, facing, options.shortest_segment, a, facing_it, pressed);
+      n = contactNormal(segment, facing, mirrorsOf(a.cell), options.shortest_segment, a, facing_it, pressed);
     if (dot(a.normal, n) >= fit_least_cosine)
       return n;
     return pressed ? a.normal : Vector2{0.0, 0.0};
@@ -205,9 +207,9 @@ struct RowBuilder
     double const h = a.cell_size;
     bool const fitted = a.face >= 0 && mesh.face_neighbour(a.cell, a.face) < 0;
     if (to.gap > touching_gap * h || a.parts * a.length > longest * h || fitted || b.material < 0 || isPressed(a, b) ||
-        (dt > 0.0 && areBonded(a, b)) || touchingLength(facing, a, b.material) > few)
+        (dt > 0.0 && areBonded(a, b)) || touchingLength(facing, mirrorsOf(a.cell), a, b.material) > few)
       return to;
-    return {to.segment, Math::max(to.gap, h * curvedGap(bins, a, b.material, normal)), to.cosine};
+    return {to.segment, Math::max(to.gap, h * curvedGap(bins, mirrorsOf(a.cell), a, b.material, normal)), to.cosine};
   }
 
   /// A half of a segment, with its Gauss point of the whole.
@@ -256,7 +258,7 @@ struct RowBuilder
     bool const at_wall = face.material < 0;
     Vector2 const &n = contact.normal, corner = contact.foot + contact.gap * n;
     rows.normal[0] = at_wall ? -n : n;
-    double gap = at_wall ? contact.gap : gapAboveArc(bins, face, corner, n, contact.gap);
+    double gap = at_wall ? contact.gap : gapAboveArc(bins, mirrorsOf(face.cell), face, corner, n, contact.gap);
     InterfaceSegment const &tip = segment(contact.segment);
     if (dt > 0.0 && !cornerRebounds(mesh, boundary, options.interaction, tip, face))
     {

@@ -4,6 +4,7 @@
 
 #include <Harmos_InterfaceSegments.hpp>
 #include <Harmos_Pack.hpp>
+#include <Harmos_SlipMirrors.hpp>
 
 namespace Harmos
 {
@@ -137,6 +138,34 @@ private:
             Math::max(first_row, index(low[1])), Math::min(last_row, index(high[1]))};
   }
 };
+
+/// How many cells from a segment slip walls mirror what its fits take.
+constexpr int mirrored_rows = 3;
+
+/// visit(segment, image) for the segments in the bins within `box` of a point along x and y, and for their images
+/// beyond slip walls there. \param visit Its second argument is the number of the mirror; -1: a segment itself.
+template <class Visitor>
+KOKKOS_INLINE_FUNCTION void forEachWithImages(SegmentBins const &bins, SlipMirrors const &mirrors, Vector2 const &point,
+                                              double box, Visitor const &visit)
+{
+  Vector2 const reach{box, box};
+  bins.forEach(point - reach, point + reach, [&](int, BinnedSegment const &s) { visit(s, -1); });
+  for (int i = 0; i < mirrors.count; ++i)
+  {
+    MirrorImage const &image = mirrors.image[i];
+    Vector2 const at = image.point(point);
+    bins.forEach(at - reach, at + reach,
+                 [&](int, BinnedSegment const &s)
+                 {
+                   if (!image.reflects(s.midpoint))
+                     return;
+                   BinnedSegment beyond = s;
+                   beyond.midpoint = image.point(s.midpoint);
+                   beyond.normal = image.direction(s.normal);
+                   visit(beyond, i);
+                 });
+  }
+}
 
 /// Largest cell size or segment length of this rank's own cells; zero where they have no segment.
 double largestSegment(Mesh const &mesh, InterfaceSegments const &segments);

@@ -47,9 +47,11 @@ struct RemapOptions
   bool swept_faces = true;     // pure regions by swept faces; false: intersection everywhere
   bool return_kinetic_defect = false; // kinetic energy lost by the remap becomes internal energy, pair by pair; not
                                       // where damage is tracked, which is carried in its place
-  double shortest_bent_edge = 0.1;    // of the cell size; edges inside cells below it stay straight (bendOf)
-  bool part_overlaps = true;          // what moved regions of bodies that pass each other have in common is divided
-  bool measure_overlap = false;       // RemapReport::moved_overlap, remapped_overlap; changes nothing else
+  bool mirrored_walls = false; // fields go on beyond slip walls as their mirror images (gradients, ranges): of scenes.
+                               // Without it they end there, and linear ones are exact
+  double shortest_bent_edge = 0.1; // of the cell size; edges inside cells below it stay straight (bendOf)
+  bool part_overlaps = true;       // what moved regions of bodies that pass each other have in common is divided
+  bool measure_overlap = false;    // RemapReport::moved_overlap, remapped_overlap; changes nothing else
 };
 
 /// What the moved regions of different materials have in common, polygon by polygon and whatever void is left beside

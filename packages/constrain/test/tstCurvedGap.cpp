@@ -56,6 +56,11 @@ void addChord(std::vector<InterfaceSegment> &all, int material, int cell, double
   all.push_back(facet(material, cell, {t0, top + up * (d0 + shift)}, {t1, top + up * (d1 + shift)}));
 }
 
+SlipMirrors noMirrors()
+{
+  return {Mesh{}, View<Boundary *>(), 0, 0};
+}
+
 double gapOf(std::vector<InterfaceSegment> const &all, InterfaceSegment const &at)
 {
   InterfaceSegments s;
@@ -67,9 +72,10 @@ double gapOf(std::vector<InterfaceSegment> const &all, InterfaceSegment const &a
   Kokkos::deep_copy(s.segment, host);
   SegmentBins const bins = binSegments(s, 1.2 * cell_size);
   View<double *> const gap("gap", 1);
+  SlipMirrors const none = noMirrors();
   Vector2 const up = turned({0.0, 1.0});
   Kokkos::parallel_for(
-      "gap", RangePolicy(0, 1), KOKKOS_LAMBDA(int) { gap(0) = curvedGap(bins, at, 1, up); });
+      "gap", RangePolicy(0, 1), KOKKOS_LAMBDA(int) { gap(0) = curvedGap(bins, none, at, 1, up); });
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), gap)(0);
 }
 
@@ -213,9 +219,10 @@ TEST(CurvedGap, cornerAboveAnArc_isAsFarAwayAsTheArc)
       s.segment = deviceCopy("segment", all);
       SegmentBins const bins = binSegments(s, 1.2 * cell_size);
       View<double *> const found("found", 1);
+      SlipMirrors const none = noMirrors();
       Kokkos::parallel_for(
           "gapAboveArc", RangePolicy(0, 1),
-          KOKKOS_LAMBDA(int) { found(0) = gapAboveArc(bins, face, corner, up, to_chord); });
+          KOKKOS_LAMBDA(int) { found(0) = gapAboveArc(bins, none, face, corner, up, to_chord); });
       double const result = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), found)(0) / cell_size;
       EXPECT_NEAR(result, Math::max(gap, to_chord / cell_size), 1e-3) << r << " " << t;
       if (t > 0.2)

@@ -232,34 +232,71 @@ struct PolynomialFinder
     return index >= 0 ? fromDonor(index, material, rotation, n) : fromCell(cell, material, rotation, n);
   }
 
-  /// Least-squares gradients over the same-material neighbours: of the corner velocities between the cells' centres, of
-  /// the others between the centroids. Widens the range by the neighbours' values.
+  /// visit(what is there, item of mesh.cell_neighbour or -1 for the donor itself, mirror) for the images of the
+  /// material in a donor's cell and around it beyond slip walls. \param q Of the donor, with its corner velocities
+  /// before stage 1.
+  template <class Visitor>
+  KOKKOS_INLINE_FUNCTION void forImages(int cell, int donor, StageFields const &q, Visitor const &visit) const
+  {
+    forMirroredNeighbours(in.mesh, in.mirrors(), cell,
+                          [&](int j, MirrorImage const &image)
+                          {
+                            Neighbour n;
+                            if (j < 0)
+                              n = {q,
+                                   in.state.record(donors.head(donor).pair, VolumeFraction),
+                                   {donors.shape(donor, 1), donors.shape(donor, 2)},
+                                   cellCentre(donor)};
+                            else if (!findNeighbour(j, donors.head(donor).material, n))
+                              return;
+                            for (int i = 0; i < image.count; ++i)
+                              mirrorFields(n.value, image.normal[i], image.face[i]);
+                            n.centroid = image.point(n.centroid);
+                            n.centre = image.point(n.centre);
+                            visit(n, j, image);
+                          });
+  }
+
+  /// Whether the mesh ends at a face of a cell, and the fields with it.
+  KOKKOS_INLINE_FUNCTION bool fieldsEndAt(int cell, int k) const
+  {
+    return in.mesh.face_neighbour(cell, k) < 0 &&
+           !(in.options.mirrored_walls && SlipMirrors::isSlip(in.mesh, in.conditions.boundary, cell, k));
+  }
+
+  /// Least-squares gradients over the same-material neighbours and their images: of the corner velocities between the
+  /// cells' centres, of the others between the centroids. Widens the range by the neighbours' values.
   KOKKOS_INLINE_FUNCTION void gradient(int cell, int donor, StageFields const &q, Gradient &g,
                                        FaceNeighbours &beyond) const
   {
     LinearFit of_record;
     CornerFit of_corner;
     Vector2 const centroid{donors.shape(donor, 1), donors.shape(donor, 2)}, centre = cellCentre(donor);
-    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
+    auto const add = [&](Neighbour const &n, bool beyond_face)
     {
-      Neighbour n;
-      if (!findNeighbour(j, donors.head(donor).material, n))
-        continue;
       Vector2 const d = n.centroid - centroid;
       if (!(dot(d, d) > 0.0))
-        continue;
+        return;
       StageFields const difference = n.value - q;
       of_record.add(d, n.filled, difference.record);
       of_corner.add(n.centre - centre, n.filled, difference.corner);
-      if (in.options.limiter == RemapLimiter::VanLeer && isBeyondFace(cell, in.mesh.cell_neighbour.item(j)) &&
-          beyond.size < 4)
+      if (in.options.limiter == RemapLimiter::VanLeer && beyond_face && beyond.size < 4)
       {
         beyond.offset[beyond.size] = d;
         beyond.difference[beyond.size++] = difference;
       }
       g.lower = {lesser(g.lower.record, n.value.record), lesser(g.lower.corner, n.value.corner)};
       g.upper = {greater(g.upper.record, n.value.record), greater(g.upper.corner, n.value.corner)};
+    };
+    int const material = donors.head(donor).material;
+    for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
+    {
+      Neighbour n;
+      if (findNeighbour(j, material, n))
+        add(n, isBeyondFace(cell, in.mesh.cell_neighbour.item(j)));
     }
+    forImages(cell, donor, q,
+              [&](Neighbour const &n, int j, MirrorImage const &image) { add(n, j < 0 && image.count == 1); });
     of_record.solve(g.x.record, g.y.record);
     of_corner.solve(g.x.corner, g.y.corner);
     Vector2 corner[4];
@@ -394,7 +431,7 @@ struct PolynomialFinder
     g.upper = {q.record, greater(q.corner, before.corner)};
     gradient(cell, donor, before, g, beyond);
     for (int k = 0; in.ranges.extent(0) > 0 && k < 4; ++k)
-      if (in.mesh.face_neighbour(cell, k) < 0)
+      if (fieldsEndAt(cell, k))
         widenBeyond(cell, (k + 2) % 4, donors.head(donor).material, before, g);
     g.lower.record.set<DensityField>(Math::max(g.lower.record[DensityField], least_part * q.record[DensityField]));
     return before;

@@ -275,7 +275,8 @@ struct FinishFunctor
     double const own = equationOfState(in.materials(material), s, e).pressure;
     double const work =
         part * s *
-        pressureAround(in.mesh, in.pairs, cell, material, own, acceptors.sum(c, VolumeSum), pressure_of, volume_of);
+        pressureAround(in.mesh, in.conditions.boundary, in.pairs, cell, material, own, acceptors.sum(c, VolumeSum),
+                       pressure_of, volume_of);
     acceptors.record(c, SpecificVolume) = s + part * s;
     acceptors.record(c, InternalEnergy) = e - work;
     return acceptors.record(c, Mass) * work;

@@ -114,8 +114,9 @@ struct QuadraticFinder : PolynomialFinder
   }
 
   /// \return Whether all neighbours are full.
-  KOKKOS_INLINE_FUNCTION bool gather(QuadraticFit<StageFields> &fit, int cell, int material, StageFields const &q) const
+  KOKKOS_INLINE_FUNCTION bool gather(QuadraticFit<StageFields> &fit, int cell, int donor, StageFields const &q) const
   {
+    int const material = donors.head(donor).material;
     bool full = true;
     for (int j = in.mesh.cell_neighbour.offset(cell); j < in.mesh.cell_neighbour.offset(cell + 1); ++j)
     {
@@ -126,6 +127,20 @@ struct QuadraticFinder : PolynomialFinder
       fit.add(spreadOf(neighbour, classes.interface_index(neighbour), material, n.centroid), n.filled, n.value - q);
       full = full && n.filled == 1.0;
     }
+    forImages(cell, donor, q,
+              [&](Neighbour const &n, int j, MirrorImage const &image)
+              {
+                Spread s = spreadOf(donor);
+                if (j >= 0)
+                {
+                  int const neighbour = in.mesh.cell_neighbour.item(j);
+                  s = spreadOf(neighbour, classes.interface_index(neighbour), material, n.centroid);
+                }
+                s.centroid = n.centroid;
+                for (int i = 0; i < image.count; ++i)
+                  mirrorTensor(image.normal[i], s.second[0], s.second[1], s.second[2]);
+                fit.add(s, n.filled, n.value - q);
+              });
     return full;
   }
 
@@ -358,7 +373,7 @@ struct QuadraticFinder : PolynomialFinder
     else
     {
       QuadraticFit<StageFields> fit(spreadOf(donor), donors.shape(donor, 0));
-      full = gather(fit, cell, donors.head(donor).material, before);
+      full = gather(fit, cell, donor, before);
       solved = fit.solve();
       for (int i = 0; i < 5 && solved; ++i)
         p.c[1 + i] = fit.right[i];

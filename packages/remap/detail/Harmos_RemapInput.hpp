@@ -32,6 +32,11 @@ struct Input
   CornerShares share;        // of the mesh where the motion began, in all of the remap (moveShares)
   bool any_fluid = true;     // some material is neither rigid nor has strength: without one there is no gas
 
+  /// Boundaries whose slip walls mirror fields; none where they do not.
+  KOKKOS_INLINE_FUNCTION View<Boundary *> mirrors() const
+  {
+    return options.mirrored_walls ? conditions.boundary : View<Boundary *>();
+  }
   KOKKOS_INLINE_FUNCTION bool isRigid(int material) const { return materials(material).rigid_body >= 0; }
   /// Stage field KineticField holds damage.
   KOKKOS_INLINE_FUNCTION bool carriesDamage() const { return state.tracks_damage; }

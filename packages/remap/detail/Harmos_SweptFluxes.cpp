@@ -3,6 +3,7 @@
 
 #include <Harmos_Select.hpp>
 #include <detail/Harmos_RangeLimit.hpp>
+#include <detail/Harmos_StageFields.hpp>
 
 namespace Harmos
 {
@@ -78,7 +79,27 @@ struct SweptFluxFunctor
       double const *column = stage.at(CentroidX, same ? stage.face_neighbour(cell, k) >> 2 : cell);
       for (int c = 0; c < num_neighbour_columns; ++c, column += column_stride)
         gathered[c][k * pack_width + lane] = *column;
+      Vector2 normal;
+      if (!same && lane < count && stage.pure_material[cell] >= 0 && stage.mirrorsAt(cell, k, normal))
+        mirror(stage.cell_node(cell, k), normal, k * pack_width + lane, gathered);
     }
+  }
+
+  /// What is gathered for a lane, the cell's own, becomes its image beyond a wall through a node.
+  KOKKOS_INLINE_FUNCTION void mirror(int node, Vector2 const &normal, int lane, GatheredColumns &gathered) const
+  {
+    double &x = gathered[CentroidX][lane], &y = gathered[CentroidX + 1][lane];
+    double const across = 2.0 * ((x - stage.position(node, 0)) * normal[0] + (y - stage.position(node, 1)) * normal[1]);
+    x -= across * normal[0];
+    y -= across * normal[1];
+    mirrorTensor(normal, gathered[FieldColumn + DeviatorXX][lane], gathered[FieldColumn + DeviatorXY][lane],
+                 gathered[FieldColumn + DeviatorYY][lane]);
+  }
+
+  KOKKOS_INLINE_FUNCTION bool endsAt(int cell, int k) const
+  {
+    Vector2 normal;
+    return stage.endsAt(cell, k) && !stage.mirrorsAt(cell, k, normal);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Columns columnsBeyond(int first, int block, GatheredColumns &gathered) const
@@ -246,7 +267,7 @@ struct SweptFluxFunctor
       p[k] = columns.load(k, FieldColumn + field);
     for (int lane = 0; lane < pack_width && first + lane < end; ++lane)
       for (int k = 0; k < 4; ++k)
-        if (stage.endsAt(first + lane, k))
+        if (endsAt(first + lane, k))
           widenByMirrored(laneOf(q, lane), laneOf(p[(k + 2) & 3], lane), stage.leastOf(first + lane)[field],
                           stage.largestOf(first + lane)[field], lower[lane], upper[lane]);
   }
@@ -256,7 +277,7 @@ struct SweptFluxFunctor
   {
     for (int lane = 0; lane < pack_width && first + lane < end; ++lane)
       for (int k = 0; k < 4; ++k)
-        if (stage.endsAt(first + lane, k))
+        if (endsAt(first + lane, k))
           widenByDensity(laneOf(ratio, lane), laneOf(density.lower, lane), laneOf(density.upper, lane),
                          stage.leastOf(first + lane)[SpecificVolume], stage.largestOf(first + lane)[SpecificVolume],
                          lower[lane], upper[lane]);

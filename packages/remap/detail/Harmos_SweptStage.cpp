@@ -120,7 +120,8 @@ SweptStage::SweptStage(Input const &in, Classes const &classes, SweptWindow cons
                        View<double *[8]> const &corner_after, View<double *[2]> const &part_after,
                        SweptHeat const &heat)
     : geometry(in.mesh.geometry), dt(in.dt), second_order(in.options.order > 1), third_order(in.options.order > 2),
-      limiter(in.options.limiter), ranges(in.ranges.data()), cell_node(in.mesh.cell_node),
+      limiter(in.options.limiter), ranges(in.ranges.data()),
+      mirrored_walls(in.options.mirrored_walls), cell_node(in.mesh.cell_node),
       face_neighbour(in.mesh.face_neighbour), position(in.start), target(in.mesh.node_position),
       retargeted(in.retargeted), node_owned(in.mesh.node_owned.data()), first_item(in.mesh.node_cell.offset.data()),
       item(in.mesh.node_cell.item.data()), first_neighbour(in.mesh.cell_neighbour.offset.data()),

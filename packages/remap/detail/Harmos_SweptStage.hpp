@@ -137,6 +137,7 @@ struct SweptStage
   bool third_order;
   RemapLimiter limiter;
   double const *ranges; // fieldRanges: rows of 32 by material; null unless RangeInside
+  bool mirrored_walls;  // RemapOptions
 
   RowPointer<int, 4> cell_node, face_neighbour;
   RowPointer<double, 2> position; // at the start of the motion
@@ -191,6 +192,30 @@ struct SweptStage
   KOKKOS_FORCEINLINE_FUNCTION bool endsAt(int c, int face) const
   {
     return ranges != nullptr && pure_material[c] >= 0 && (flags[c] & NeighbourBit << face) == 0;
+  }
+  /// Whether the fields go on beyond a face as their mirror image: it is on a straight slip wall at rest, which one of
+  /// its nodes at least is free to slip along. \param[out] normal Unit; out of the mesh.
+  KOKKOS_INLINE_FUNCTION bool mirrorsAt(int cell, int face, Vector2 &normal) const
+  {
+    if (!mirrored_walls || face_neighbour(cell, face) >= 0)
+      return false;
+    int const a = cell_node(cell, face), b = cell_node(cell, (face + 1) & 3);
+    if (node_condition[a] < 0 || node_condition[b] < 0)
+      return false;
+    Vector2 const along = normalised(Vector2{position(b, 0) - position(a, 0), position(b, 1) - position(a, 1)});
+    normal = {along[1], -along[0]};
+    int slipping = 0;
+    for (int node : {a, b})
+    {
+      NodeCondition const &wall = condition[node_condition[node]];
+      bool holds = false;
+      for (int j = 0; j < wall.count; ++j)
+        holds = holds || (wall.value[j] == 0.0 && Math::fabs(cross(wall.normal[j], normal)) < 1e-12);
+      if (!holds)
+        return false;
+      slipping += wall.count == 1 ? 1 : 0;
+    }
+    return slipping > 0;
   }
   /// Rows of fieldRanges for the fields of a record.
   KOKKOS_FORCEINLINE_FUNCTION double const *leastOf(int c) const { return ranges + 32 * pure_material[c]; }
