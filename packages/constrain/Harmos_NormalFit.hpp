@@ -138,6 +138,7 @@ struct ParabolaFit
   double gamma[2] = {0.0, 0.0};
 };
 
+constexpr double robust_scale = 0.025;   // misfit that halves a sample's weight [cells]
 constexpr double fit_least_cosine = 0.7; // segments (and rows) that are tilted more against the normal are left out
 
 /// The samples in the frame of one pass: positions, heights, projected lengths squared over 12, and slopes.
@@ -253,7 +254,7 @@ KOKKOS_INLINE_FUNCTION double reweigh(FitSamples const &s, ParabolaFit const &fi
         loadPack(frame.y + j) - (alpha + of_b * more_alpha) - beta * t - Pack(0.5) * gamma * (t * t + spread);
     Pack const d = loadPack(frame.slope + j) - beta - gamma * t;
     Pack const e2 = select(Pack(0.0) < loadPack(frame.taken + j), r * r + spread * d * d, largest);
-    storePack(frame.omega + j, one / (one + e2 * Pack(1.0 / (0.025 * 0.025))));
+    storePack(frame.omega + j, one / (one + e2 * Pack(1.0 / (robust_scale * robust_scale))));
     misfit += loadPack(s.weight + j) * Math::min(e2, largest);
   }
   return laneSum(misfit);
@@ -381,8 +382,10 @@ KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
 ///              Beside a corner of one body inside of another the mean is that of both faces: where it leaves a large
 ///              misfit, and what lies within 45 degrees of `fallback` is a smooth face (isFace), the passes begin with
 ///              that one.
+/// \param[out] frame Of the last pass, with the factors of the one before.
 /// \return Unit normal from a to b; no misfit where it is the fallback.
-KOKKOS_INLINE_FUNCTION NormalGuess guessNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
+KOKKOS_INLINE_FUNCTION NormalGuess guessNormal(FitSamples &samples, Vector2 const &fallback, bool rough,
+                                               FitFrame &frame)
 {
   constexpr double large_misfit = 0.05; // root mean square [cells]
   samples.fillPack();
@@ -400,8 +403,11 @@ KOKKOS_INLINE_FUNCTION NormalGuess guessNormal(FitSamples &samples, Vector2 cons
   Vector2 const mean{laneSum(mean_x), laneSum(mean_y)};
   double const total = laneSum(weights);
   if (!(norm(mean) > 0.0))
+  {
+    for (int j = 0; j < samples.count; ++j)
+      frame.taken[j] = 0.0;
     return {fallback, 0.0};
-  FitFrame frame;
+  }
   NormalGuess const guess = turnNormal(samples, normalised(mean), total, rough, frame);
   if (rough && guess.misfit > large_misfit * large_misfit && isFace(samples, fallback, frame))
     return turnNormal(samples, fallback, total, rough, frame);
@@ -410,18 +416,41 @@ KOKKOS_INLINE_FUNCTION NormalGuess guessNormal(FitSamples &samples, Vector2 cons
 
 KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
 {
-  return guessNormal(samples, fallback, rough).normal;
+  FitFrame frame;
+  return guessNormal(samples, fallback, rough, frame).normal;
 }
 
-/// The normal where `samples` end at a mirror, beyond which are those of `all` that these lack, their images. An
-/// interface that meets the mirror at a right angle goes on smoothly as its image; another one has a kink there, and
-/// across that an arc would lean to the mean of both legs: it keeps to its own.
+/// Mean squared misfit of the samples from number `first` on that a fit takes. [cells^2]
+KOKKOS_INLINE_FUNCTION double misfitFrom(int first, FitSamples const &samples, FitFrame const &frame)
+{
+  double weight = 0.0, misfit = 0.0;
+  for (int j = first; j < samples.count; ++j)
+  {
+    double const w = samples.weight[j] * frame.taken[j];
+    if (!(w > 0.0))
+      continue;
+    weight += w;
+    misfit += w * robust_scale * robust_scale * (1.0 / frame.omega[j] - 1.0);
+  }
+  return weight > 0.0 ? misfit / weight : 0.0;
+}
+
+/// The normal where `samples` end at a mirror; `all` are these and, behind them, the images beyond it. An interface
+/// that meets the mirror at a right angle goes on smoothly as its image. Another one has a kink there, and across that
+/// a parabola would lean to the mean of both legs: it keeps to its own samples. A kink shows in the misfit of all, and
+/// where the images hardly weigh in that of theirs.
 KOKKOS_INLINE_FUNCTION Vector2 fitBesideMirror(FitSamples &samples, FitSamples &all, Vector2 const &fallback,
                                                bool rough)
 {
   constexpr double smooth = 0.01, worse = 2.0; // root mean square misfit [cells]; over that of the samples alone
-  NormalGuess const alone = guessNormal(samples, fallback, rough), both = guessNormal(all, fallback, rough);
-  return both.misfit <= Math::max(smooth * smooth, worse * worse * alone.misfit) ? both.normal : alone.normal;
+  constexpr double smooth_image = 0.05;        // of the images [cells]
+  FitFrame frame;
+  NormalGuess const alone = guessNormal(samples, fallback, rough, frame);
+  NormalGuess const both = guessNormal(all, fallback, rough, frame);
+  double const least = worse * worse * alone.misfit;
+  bool const goes_on = both.misfit <= Math::max(smooth * smooth, least) &&
+                       misfitFrom(samples.count, all, frame) <= Math::max(smooth_image * smooth_image, least);
+  return goes_on ? both.normal : alone.normal;
 }
 
 } // namespace Harmos
