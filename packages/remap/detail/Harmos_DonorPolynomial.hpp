@@ -282,8 +282,8 @@ struct PolynomialFinder
       of_corner.add(n.centre - centre, n.filled, difference.corner);
       if (in.options.limiter == RemapLimiter::VanLeer && beyond_face && beyond.size < 4)
       {
-        beyond.offset[beyond.size] = d;
-        beyond.difference[beyond.size++] = difference;
+        beyond.offset[beyond.size] = n.centroid - centroid;
+        beyond.difference[beyond.size++] = n.value - q;
       }
       g.lower = {lesser(g.lower.record, n.value.record), lesser(g.lower.corner, n.value.corner)};
       g.upper = {greater(g.upper.record, n.value.record), greater(g.upper.corner, n.value.corner)};
