@@ -4,6 +4,7 @@
 
 #include <Harmos_BondedPlaces.hpp>
 #include <Harmos_ContactRows.hpp>
+#include <Harmos_MirroredSamples.hpp>
 #include <Harmos_NormalFit.hpp>
 #include <Harmos_SegmentBearing.hpp>
 
@@ -77,24 +78,26 @@ KOKKOS_INLINE_FUNCTION bool cornerRebounds(Mesh const &mesh, View<Boundary *> co
 KOKKOS_INLINE_FUNCTION Vector2 sideNormal(SegmentBins const &bins, SlipMirrors const &mirrors,
                                           InterfaceSegment const &s, Vector2 const &point)
 {
-  FitSamples samples, all;
+  FitSamples samples;
   double const inverse_h = 1.0 / s.cell_size;
+  double part[SlipMirrors::most];
+  bool known = false;
   forEachWithImages(bins, mirrors, point, fit_reach * s.cell_size,
                     [&](BinnedSegment const &other, int image)
                     {
+                      if (image >= 0 && !known) // the segments themselves come first
+                        smoothParts(mirrors, samples, point, s.cell_size, s.normal, part);
+                      known = image >= 0;
+                      double const counts = image < 0 ? 1.0 : part[image];
                       Vector2 const offset = inverse_h * (other.midpoint - point);
                       double const kernel = 1.0 - dot(offset, offset) / (fit_reach * fit_reach);
-                      if (other.material != s.material || !(kernel > 0.0) ||
+                      if (other.material != s.material || !(kernel > 0.0) || !(counts > 0.0) ||
                           dot(other.normal, s.normal) < fit_least_cosine)
                         return;
                       double const length = inverse_h * other.length;
-                      FitSample const sample{offset, other.normal, length, length * kernel * kernel, 0.0, 0};
-                      all.push(sample);
-                      if (image < 0)
-                        samples.push(sample);
+                      samples.push({offset, other.normal, length, counts * length * kernel * kernel, 0.0, 0});
                     });
-  return all.count == samples.count ? fitNormal(samples, s.normal, true)
-                                    : fitBesideMirror(samples, all, s.normal, true);
+  return fitNormal(samples, s.normal, true);
 }
 
 } // namespace Harmos

@@ -2,6 +2,7 @@
 #ifndef HARMOS_FACING_SEGMENTS_HPP
 #define HARMOS_FACING_SEGMENTS_HPP
 
+#include <Harmos_MirroredSamples.hpp>
 #include <Harmos_NormalFit.hpp>
 #include <Harmos_RayCast.hpp>
 #include <Harmos_SlipMirrors.hpp>
@@ -74,15 +75,17 @@ struct SampleGatherer
       take(i, end);
   }
 
-  /// Samples from number `first` on, which were taken for the image of the point, as images around the point.
-  KOKKOS_INLINE_FUNCTION void mirror(MirrorImage const &image, int first) const
+  /// Samples from number `first` on, which were taken for the image of the point, as images around the point, with a
+  /// part of their weights.
+  KOKKOS_INLINE_FUNCTION void mirror(MirrorImage const &image, int first, double part) const
   {
     int kept = first;
     for (int j = first; j < samples.count; ++j)
     {
       Vector2 const offset{samples.x[j], samples.y[j]};
       if (image.reflects(at.point + at.cell_size * offset)) // which is where the segment is
-        samples.mirror(j, kept++, image.direction(offset), image.direction({samples.normal_x[j], samples.normal_y[j]}));
+        samples.mirror(j, kept++, image.direction(offset), image.direction({samples.normal_x[j], samples.normal_y[j]}),
+                       part);
     }
     samples.count = kept;
   }
@@ -158,20 +161,20 @@ KOKKOS_INLINE_FUNCTION Vector2 contactNormal(View<InterfaceSegment *> const &seg
   Vector2 const reach{fit_reach * s.cell_size, fit_reach * s.cell_size};
   double const a = s.material, b = segment(target).material;
   facing.bins.forEachRun(s.point - reach, s.point + reach, SampleGatherer{facing, s, a, b, shortest, samples});
-  Vector2 const fallback = normalised(s.normal - segment(target).normal);
-  if (mirrors.count == 0)
-    return fitNormal(samples, fallback, rough);
-  FitSamples all = samples;
+  Vector2 const along = normalised(s.normal - segment(target).normal);
+  double part[SlipMirrors::most];
+  smoothParts(mirrors, samples, s.point, s.cell_size, along, part);
   for (int i = 0; i < mirrors.count; ++i)
   {
+    if (!(part[i] > 0.0))
+      continue;
     InterfaceSegment const at = mirrored(s, mirrors.image[i]);
-    SampleGatherer const gatherer{facing, at, a, b, shortest, all};
-    int const first = all.count;
+    SampleGatherer const gatherer{facing, at, a, b, shortest, samples};
+    int const first = samples.count;
     facing.bins.forEachRun(at.point - reach, at.point + reach, gatherer);
-    gatherer.mirror(mirrors.image[i], first);
+    gatherer.mirror(mirrors.image[i], first, part[i]);
   }
-  return all.count == samples.count ? fitNormal(samples, fallback, rough)
-                                    : fitBesideMirror(samples, all, fallback, rough);
+  return fitNormal(samples, along, rough);
 }
 
 } // namespace Harmos

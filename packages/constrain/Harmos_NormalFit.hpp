@@ -40,10 +40,10 @@ struct FitSamples
     return true;
   }
 
-  /// Sample j, at another place and with another normal, as number `to` (at most j).
-  KOKKOS_INLINE_FUNCTION void mirror(int j, int to, Vector2 const &offset, Vector2 const &normal)
+  /// Sample j, seen in a mirror and with a part of its weight, as number `to` (at most j).
+  KOKKOS_INLINE_FUNCTION void mirror(int j, int to, Vector2 const &its_offset, Vector2 const &its_normal, double part)
   {
-    set(to, {offset, normal, length[j], weight[j], gap[j], of_b[j] > 0.5 ? 1 : 0});
+    set(to, {its_offset, its_normal, length[j], part * weight[j], gap[j], of_b[j] > 0.5 ? 1 : 0});
   }
 
   /// The chosen lanes of a pack of samples, as far as there is room.
@@ -101,6 +101,50 @@ KOKKOS_INLINE_FUNCTION double smoothStep(double part)
   return p * p * (3.0 - 2.0 * p);
 }
 
+/// How far an interface goes on smoothly as its image beyond a mirror: 1 where it meets that at a right angle, 0 where
+/// it has a kink there. An arc through both legs of a kink would lean to their mean.
+///
+/// On a circle whose centre is on the mirror the part s = n . wall of the normal is x / R at the distance x from it: of
+/// the line s = s_0 + k x through the samples on this side, by least squares with the weights L (1 - x^2/9)_+^2, s_0 is
+/// the sine of the kink. Chords that have moved are rough: |s_0| up to four times the root mean square r of what they
+/// are off the line is none, from eight times on it is one, with 4 r at least 0.01 and at most 0.06.
+///
+/// \param samples Before any image is added. \param wall Unit normal of the mirror, away from them.
+/// \param distance Of the point from the mirror. [cells]
+/// \param along Unit vector, of the segment and the one that it faces: of two faces that of one side counts.
+KOKKOS_INLINE_FUNCTION double smoothnessAt(FitSamples const &samples, Vector2 const &wall, double distance,
+                                           Vector2 const &along)
+{
+  constexpr double roughness = 4.0, least = 0.015, most = 0.06; // sines that are no kink
+  constexpr double steepest = 0.7, least_spread = 0.05;        // the last in cells^2
+  Vector2 const tangent = perpendicular(wall);
+  double w = 0.0, wx = 0.0, wxx = 0.0, ws = 0.0, wxs = 0.0, wss = 0.0;
+  int count = 0;
+  for (int j = 0; j < samples.count; ++j)
+  {
+    Vector2 const normal{samples.normal_x[j], samples.normal_y[j]};
+    double const x = distance - (samples.x[j] * wall[0] + samples.y[j] * wall[1]), s = dot(normal, wall);
+    double const kernel = 1.0 - x * x / (fit_reach * fit_reach);
+    if (!(kernel > 0.0) || Math::fabs(s) > steepest || !(dot(normal, tangent) * dot(along, tangent) > 0.0))
+      continue;
+    double const weight = samples.length[j] * kernel * kernel;
+    w += weight;
+    wx += weight * x;
+    wxx += weight * x * x;
+    ws += weight * s;
+    wxs += weight * x * s;
+    wss += weight * s * s;
+    ++count;
+  }
+  if (!(w > 0.0))
+    return 0.0;
+  double const x = wx / w, s = ws / w, spread = wxx / w - x * x;
+  double const slope = spread > least_spread ? (wxs / w - x * s) / spread : 0.0;
+  double const off = Math::max(wss / w - s * s - slope * slope * spread, 0.0); // squared
+  double const smooth = count < 3 ? most : Math::clamp(roughness * Math::sqrt(off), least, most);
+  return 1.0 - smoothStep(Math::fabs(s - slope * x) / smooth - 1.0);
+}
+
 /// What the samples' gaps leave of their base weights w_j:
 ///
 ///   (1 - theta) / (1 + (g_j/0.3)^2) + theta / (1 + (g_j/0.003)^2),
@@ -138,7 +182,6 @@ struct ParabolaFit
   double gamma[2] = {0.0, 0.0};
 };
 
-constexpr double robust_scale = 0.025;   // misfit that halves a sample's weight [cells]
 constexpr double fit_least_cosine = 0.7; // segments (and rows) that are tilted more against the normal are left out
 
 /// The samples in the frame of one pass: positions, heights, projected lengths squared over 12, and slopes.
@@ -254,7 +297,7 @@ KOKKOS_INLINE_FUNCTION double reweigh(FitSamples const &s, ParabolaFit const &fi
         loadPack(frame.y + j) - (alpha + of_b * more_alpha) - beta * t - Pack(0.5) * gamma * (t * t + spread);
     Pack const d = loadPack(frame.slope + j) - beta - gamma * t;
     Pack const e2 = select(Pack(0.0) < loadPack(frame.taken + j), r * r + spread * d * d, largest);
-    storePack(frame.omega + j, one / (one + e2 * Pack(1.0 / (robust_scale * robust_scale))));
+    storePack(frame.omega + j, one / (one + e2 * Pack(1.0 / (0.025 * 0.025))));
     misfit += loadPack(s.weight + j) * Math::min(e2, largest);
   }
   return laneSum(misfit);
@@ -382,10 +425,8 @@ KOKKOS_INLINE_FUNCTION void dropOpposed(FitSamples &s, Vector2 const &along)
 ///              Beside a corner of one body inside of another the mean is that of both faces: where it leaves a large
 ///              misfit, and what lies within 45 degrees of `fallback` is a smooth face (isFace), the passes begin with
 ///              that one.
-/// \param[out] frame Of the last pass, with the factors of the one before.
-/// \return Unit normal from a to b; no misfit where it is the fallback.
-KOKKOS_INLINE_FUNCTION NormalGuess guessNormal(FitSamples &samples, Vector2 const &fallback, bool rough,
-                                               FitFrame &frame)
+/// \return Unit normal from a to b.
+KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
 {
   constexpr double large_misfit = 0.05; // root mean square [cells]
   samples.fillPack();
@@ -403,54 +444,12 @@ KOKKOS_INLINE_FUNCTION NormalGuess guessNormal(FitSamples &samples, Vector2 cons
   Vector2 const mean{laneSum(mean_x), laneSum(mean_y)};
   double const total = laneSum(weights);
   if (!(norm(mean) > 0.0))
-  {
-    for (int j = 0; j < samples.count; ++j)
-      frame.taken[j] = 0.0;
-    return {fallback, 0.0};
-  }
+    return fallback;
+  FitFrame frame;
   NormalGuess const guess = turnNormal(samples, normalised(mean), total, rough, frame);
   if (rough && guess.misfit > large_misfit * large_misfit && isFace(samples, fallback, frame))
-    return turnNormal(samples, fallback, total, rough, frame);
-  return guess;
-}
-
-KOKKOS_INLINE_FUNCTION Vector2 fitNormal(FitSamples &samples, Vector2 const &fallback, bool rough = false)
-{
-  FitFrame frame;
-  return guessNormal(samples, fallback, rough, frame).normal;
-}
-
-/// Mean squared misfit of the samples from number `first` on that a fit takes. [cells^2]
-KOKKOS_INLINE_FUNCTION double misfitFrom(int first, FitSamples const &samples, FitFrame const &frame)
-{
-  double weight = 0.0, misfit = 0.0;
-  for (int j = first; j < samples.count; ++j)
-  {
-    double const w = samples.weight[j] * frame.taken[j];
-    if (!(w > 0.0))
-      continue;
-    weight += w;
-    misfit += w * robust_scale * robust_scale * (1.0 / frame.omega[j] - 1.0);
-  }
-  return weight > 0.0 ? misfit / weight : 0.0;
-}
-
-/// The normal where `samples` end at a mirror; `all` are these and, behind them, the images beyond it. An interface
-/// that meets the mirror at a right angle goes on smoothly as its image. Another one has a kink there, and across that
-/// a parabola would lean to the mean of both legs: it keeps to its own samples. A kink shows in the misfit of all, and
-/// where the images hardly weigh in that of theirs.
-KOKKOS_INLINE_FUNCTION Vector2 fitBesideMirror(FitSamples &samples, FitSamples &all, Vector2 const &fallback,
-                                               bool rough)
-{
-  constexpr double smooth = 0.01, worse = 2.0; // root mean square misfit [cells]; over that of the samples alone
-  constexpr double smooth_image = 0.05;        // of the images [cells]
-  FitFrame frame;
-  NormalGuess const alone = guessNormal(samples, fallback, rough, frame);
-  NormalGuess const both = guessNormal(all, fallback, rough, frame);
-  double const least = worse * worse * alone.misfit;
-  bool const goes_on = both.misfit <= Math::max(smooth * smooth, least) &&
-                       misfitFrom(samples.count, all, frame) <= Math::max(smooth_image * smooth_image, least);
-  return goes_on ? both.normal : alone.normal;
+    return turnNormal(samples, fallback, total, rough, frame).normal;
+  return guess.normal;
 }
 
 } // namespace Harmos
