@@ -179,8 +179,8 @@ CycleReport advance(Scene &scene, CycleState &s, PhaseTimes &times)
     PhaseTimer timer("lagrange", times.lagrange);
     prepareWork(s.pairs, s.dof_nodes, work);
     if (scene.kinematics == Kinematics::Xfem && scene.lagrange.cut_cell_stress != CutCellStress::CellMean)
-      computeCutGradients(mesh, s.pairs, s.state.record, s.regions, scene.materials, scene.lagrange.cut_cell_stress,
-                          scene.lagrange.shortest_bent_edge, work.cut);
+      computeCutGradients(mesh, s.pairs, s.state.record, s.regions, scene.materials, scene.boundary,
+                          scene.lagrange.cut_cell_stress, scene.lagrange.shortest_bent_edge, work.cut);
     limitAtEdges(scene, s);
   }
 

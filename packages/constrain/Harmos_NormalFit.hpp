@@ -107,7 +107,8 @@ KOKKOS_INLINE_FUNCTION double smoothStep(double part)
 /// On a circle whose centre is on the mirror the part s = n . wall of the normal is x / R at the distance x from it: of
 /// the line s = s_0 + k x through the samples on this side, by least squares with the weights L (1 - x^2/9)_+^2, s_0 is
 /// the sine of the kink. Chords that have moved are rough: |s_0| up to four times the root mean square r of what they
-/// are off the line is none, from eight times on it is one, with 4 r at least 0.01 and at most 0.06.
+/// are off the line is none, from eight times on it is one, with 4 r at least 0.015 and at most 0.06 (0.06
+/// of fewer than three samples).
 ///
 /// \param samples Before any image is added. \param wall Unit normal of the mirror, away from them.
 /// \param distance Of the point from the mirror. [cells]

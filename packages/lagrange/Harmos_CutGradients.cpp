@@ -5,6 +5,7 @@
 #include <Harmos_Bilinear.hpp>
 #include <Harmos_Fullness.hpp>
 #include <Harmos_Moments.hpp>
+#include <Harmos_SlipMirrors.hpp>
 #include <detail/Harmos_PairAccess.hpp>
 
 namespace Harmos
@@ -112,6 +113,7 @@ struct CutGradientFunctor
   View<double *[num_pair_fields]> record;
   FilledRegions regions;
   View<Material *> materials;
+  View<Boundary *> boundary;
   CutCellStress where;
   double shortest_bent_edge;
   View<int *> first_row;
@@ -129,7 +131,7 @@ struct CutGradientFunctor
   /// Square of the extent of a region and of what continues it in the cells beyond its faces, at most that of its cell:
   /// along a principal axis e of the region, those have n . e times their extent along the normal n of the face, times
   /// the part of the face that both sides lie on. A part of a cell beside a full one has the extent of its cell, a film
-  /// its thickness.
+  /// its thickness. Beyond a slip wall is the region's own image.
   KOKKOS_INLINE_FUNCTION SquaredExtent reach(int cell, int material, Quadrilateral const &q, Region const &region,
                                              SquaredExtent const &whole) const
   {
@@ -142,17 +144,23 @@ struct CutGradientFunctor
     for (int face = 0; face < 4; ++face)
     {
       int const beyond = mesh.face_neighbour(cell, face);
+      bool const mirror = SlipMirrors::isSlip(mesh, boundary, cell, face);
       int const pair = beyond < 0 ? -1 : pairs.find(beyond / 4, material);
-      double const part = pair < 0 ? 0.0 : partOfFace(q, face, region);
-      if (!(part > 0.0))
+      double open = mirror || pair >= 0 ? partOfFace(q, face, region) : 0.0;
+      if (!(open > 0.0))
         continue;
-      Region const other = regions.region(mesh, pairs, pair);
-      if (other.size < 3 || !(area(other) > 0.0))
-        continue;
-      double const open = Math::min(part, partOfFace(cellQuadrilateral(mesh, beyond / 4), beyond % 4, other));
+      SquaredExtent continued = own;
+      if (!mirror)
+      {
+        Region const other = regions.region(mesh, pairs, pair);
+        if (other.size < 3 || !(area(other) > 0.0))
+          continue;
+        open = Math::min(open, partOfFace(cellQuadrilateral(mesh, beyond / 4), beyond % 4, other));
+        continued = squaredExtent(other);
+      }
       Vector2 const side = q[(face + 1) % 4] - q[face];
       Vector2 const normal = (1.0 / norm(side)) * Vector2{side[1], -side[0]};
-      double const more = open * Math::sqrt(Math::max(squaredExtent(other).along(normal), 0.0));
+      double const more = open * Math::sqrt(Math::max(continued.along(normal), 0.0));
       for (int i = 0; i < 2; ++i)
         length[i] += more * Math::fabs(dot(normal, axis[i]));
     }
@@ -257,8 +265,8 @@ struct CutGradientFunctor
 
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs,
                          View<double *[num_pair_fields]> const &record, FilledRegions const &regions,
-                         View<Material *> const &materials, CutCellStress where, double shortest_bent_edge,
-                         CutGradients &cut)
+                         View<Material *> const &materials, BoundaryConditions const &boundary, CutCellStress where,
+                         double shortest_bent_edge, CutGradients &cut)
 {
   if (static_cast<int>(cut.first_row.extent(0)) != mesh.num_cells)
     cut.first_row =
@@ -272,8 +280,8 @@ void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs,
     cut.lost_extent = View<double *[3]>(
         Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::lost_extent"), cut.gradient.extent(0));
   Kokkos::parallel_for("Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
-                       CutGradientFunctor{mesh, pairs, record, regions, materials, where, shortest_bent_edge,
-                                          cut.first_row, cut.gradient, cut.lost_extent});
+                       CutGradientFunctor{mesh, pairs, record, regions, materials, boundary.boundary, where,
+                                          shortest_bent_edge, cut.first_row, cut.gradient, cut.lost_extent});
 }
 
 } // namespace Harmos

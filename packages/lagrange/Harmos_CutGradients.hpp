@@ -2,6 +2,7 @@
 #ifndef HARMOS_CUT_GRADIENTS_HPP
 #define HARMOS_CUT_GRADIENTS_HPP
 
+#include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_FilledRegions.hpp>
 #include <Harmos_Material.hpp>
 
@@ -100,9 +101,9 @@ constexpr double most_void_beside_tip = 1e-3;
 ///
 /// `lost_extent` is E_cell - E_m, E = 12 / A times the second moments of an area A about its centroid: n . E n is the
 /// square of the extent along n (of a rectangle along its sides). That of a region, E_m, is lengthened along its axes
-/// by what continues it beyond the faces it lies on, up to that of its cell. Artificial viscosity works over it: the
-/// velocities of a film's sides differ by its thickness times the gradient. Of solids it counts as far as B_I does. A
-/// region without a volume has no extent.
+/// by what continues it beyond the faces it lies on (its image at slip walls), up to that of its cell. Artificial
+/// viscosity works over it: the velocities of a film's sides differ by its thickness times the gradient. Of solids it
+/// counts as far as B_I does. A region without a volume has no extent.
 ///
 /// \param record By pair (PairField): specific volume and plastic strain say what is worn, with the mass what drifted.
 /// \param shortest_bent_edge Of the cell size; that of bendOf.
@@ -111,8 +112,8 @@ constexpr double most_void_beside_tip = 1e-3;
 /// Moes, Dolbow & Belytschko, Int. J. Numer. Meth. Engng 46 (1999) 131: integrals over the parts of a cut element.
 void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs,
                          View<double *[num_pair_fields]> const &record, FilledRegions const &regions,
-                         View<Material *> const &materials, CutCellStress where, double shortest_bent_edge,
-                         CutGradients &cut);
+                         View<Material *> const &materials, BoundaryConditions const &boundary, CutCellStress where,
+                         double shortest_bent_edge, CutGradients &cut);
 
 } // namespace Harmos
 

@@ -57,8 +57,6 @@ struct SlipMirrors
   /// \param rows How many cells on walls are looked for, the cell's own row the first.
   KOKKOS_INLINE_FUNCTION SlipMirrors(Mesh const &mesh, View<Boundary *> const &boundary, int cell, int rows)
   {
-    if (boundary.extent(0) == 0)
-      return;
     int found[4];
     MirrorImage single[4];
     for (int k = 0; k < 4; ++k)
@@ -83,11 +81,11 @@ struct SlipMirrors
     }
   }
 
-  /// Whether a face of a cell is on a slip wall.
+  /// Whether a face of a cell is on a slip wall (none where no boundaries are given).
   static KOKKOS_INLINE_FUNCTION bool isSlip(Mesh const &mesh, View<Boundary *> const &boundary, int cell, int face)
   {
     int const number = mesh.face_boundary(cell, face);
-    return number >= 0 && boundary(number).kind == BoundaryKind::SlipWall;
+    return number >= 0 && boundary.extent(0) > 0 && boundary(number).kind == BoundaryKind::SlipWall;
   }
 
 private:

@@ -65,9 +65,10 @@ struct CutPart
 };
 
 /// L^2 of the artificial viscosity over that of the whole cell: the squares of the extents of the filled region and of
-/// the cell along the direction n of the strongest compression, one over the other. With the deviator of the rate,
-/// a = (D_xx - D_yy) / 2, b = D_xy, and r = |(a, b)|: n n = (1 - ((a, b), (b, -a)) / r) / 2; where r = 0 the mean of
-/// all directions.
+/// the cell along the direction n of the strongest compression, one over the other. With the half trace t of the rate
+/// in the plane, its deviator a = (D_xx - D_yy) / 2, b = D_xy, and r = |(a, b)|: n n = (1 - ((a, b), (b, -a)) / r) / 2.
+/// Where r is below 0.1 |t|, all directions are compressed within a fifth alike, that takes the place of r: n n goes
+/// over to the mean of all directions, for round-off would choose among them.
 ///
 /// Kolev & Rieben, J. Comput. Phys. 228 (2009) 8336-8366: a length along the direction of compression.
 /// \param g Velocity gradient times the cell's volume.
@@ -75,13 +76,15 @@ template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T viscousPart(MeanGradient<T> const &plane, ScaledVelocityGradient<T> const &g,
                                           T const &inverse_volume, CutPart<T> const &cut)
 {
-  T const a = 0.5 * ((g.xx - g.yy) * inverse_volume + (cut.gradient.xx - cut.gradient.yy));
+  constexpr double directed = 0.1; // of |t|
+  T const xx = g.xx * inverse_volume + cut.gradient.xx, yy = g.yy * inverse_volume + cut.gradient.yy;
+  T const a = 0.5 * (xx - yy);
   T const b = 0.5 * ((g.xy + g.yx) * inverse_volume + (cut.gradient.xy + cut.gradient.yx));
-  T const r = Math::sqrt(T(a * a + b * b));
-  auto const directed = r > T(0.0);
-  T const inverse = select(directed, T(1.0 / select(directed, r, T(1.0))), T(0.0));
-  auto const alongTwice = [&](T const &xx, T const &xy, T const &yy)
-  { return T((xx + yy) - inverse * (a * (xx - yy) + 2.0 * b * xy)); };
+  T const r = Math::max(Math::sqrt(T(a * a + b * b)), T(0.5 * directed * Math::fabs(T(xx + yy))));
+  auto const moves = r > T(0.0);
+  T const inverse = select(moves, T(1.0 / select(moves, r, T(1.0))), T(0.0));
+  auto const alongTwice = [&](T const &e_xx, T const &e_xy, T const &e_yy)
+  { return T((e_xx + e_yy) - inverse * (a * (e_xx - e_yy) + 2.0 * b * e_xy)); };
   // the mid-lines of the cell, p and q, turned by a right angle: p p + q q is its squared extent
   T const px = plane.x1 - plane.x0, py = plane.y1 - plane.y0, qx = plane.x1 + plane.x0, qy = plane.y1 + plane.y0;
   T const whole = alongTwice(T(py * py + qy * qy), T(-(px * py + qx * qy)), T(px * px + qx * qx));

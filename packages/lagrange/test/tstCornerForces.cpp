@@ -44,7 +44,7 @@ void cutTopCell(Scene &s, int cell, std::vector<Vector2> const &vertices)
   regions.cell_region = deviceCopy("cell_region", first);
   regions.polygon = deviceCopy("polygon", std::vector<Region>{part});
   s.options.cut_cell_stress = CutCellStress::FilledRegions;
-  computeCutGradients(s.mesh, s.pairs, s.state.record, regions, s.materials, s.options.cut_cell_stress,
+  computeCutGradients(s.mesh, s.pairs, s.state.record, regions, s.materials, s.boundary, s.options.cut_cell_stress,
                       s.options.shortest_bent_edge, s.work.cut);
 }
 

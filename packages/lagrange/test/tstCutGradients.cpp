@@ -23,7 +23,7 @@ struct CutCell
 
   CutCell(Geometry geometry, std::vector<Region> const &parts, Material const &material = Material(),
           CutCellStress where = CutCellStress::FilledRegions, double compression = 1.0, double plastic_strain = 0.0,
-          double drift = 0.0)
+          double drift = 0.0, BoundaryConditions const &boundary = {})
   {
     mesh = buildMesh(rectilinearMesh({2.0, 2.4}, {1.0, 1.3}));
     setGeometry(mesh, geometry);
@@ -49,7 +49,7 @@ struct CutCell
     }
     Kokkos::deep_copy(record, r);
     computeCutGradients(mesh, pairs, record, regions,
-                        deviceCopy("materials", std::vector<Material>(parts.size(), material)), where,
+                        deviceCopy("materials", std::vector<Material>(parts.size(), material)), boundary, where,
                         LagrangeOptions().shortest_bent_edge, cut);
   }
 
@@ -310,6 +310,27 @@ TEST(CutGradients, lostExtent_isWhatARegionLacksOfItsCell)
     EXPECT_NEAR(e(0, LostExtentXX), lost[i][0], 1e-14);
     EXPECT_NEAR(e(0, LostExtentXY), 0.0, 1e-14);
     EXPECT_NEAR(e(0, LostExtentYY), lost[i][1], 1e-14);
+  }
+}
+
+TEST(CutGradients, lostExtent_countsTheImageBeyondASlipWall)
+{
+  // the left 0.15 of a cell 0.4 wide: beyond a mirror there goes on another 0.15
+  Region const part = polygon({{2.0, 1.0}, {2.15, 1.0}, {2.15, 1.3}, {2.0, 1.3}});
+  BoundaryKind const kind[2] = {BoundaryKind::Outflow, BoundaryKind::SlipWall};
+  double const extent[2] = {0.15, 0.3};
+  for (int i = 0; i < 2; ++i)
+  {
+    std::vector<Boundary> walls(4);
+    for (Boundary &wall : walls)
+      wall.kind = kind[i];
+    BoundaryConditions conditions;
+    conditions.boundary = deviceCopy("boundary", walls);
+    CutCell const c(Geometry::Planar, {part}, Material(), CutCellStress::FilledRegions, 1.0, 0.0, 0.0, conditions);
+    auto const e = Harmos::onHost(c.cut.lost_extent);
+    EXPECT_NEAR(e(0, LostExtentXX), 0.16 - extent[i] * extent[i], 1e-14);
+    EXPECT_NEAR(e(0, LostExtentXY), 0.0, 1e-14);
+    EXPECT_NEAR(e(0, LostExtentYY), 0.0, 1e-14);
   }
 }
 

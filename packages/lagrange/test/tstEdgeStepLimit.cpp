@@ -72,7 +72,7 @@ struct CutBody
     regions.mixed_cell = deviceCopy("mixed_cell", mixed);
     regions.cell_region = deviceCopy("cell_region", first);
     regions.polygon = deviceCopy("polygon", polygon);
-    computeCutGradients(s.mesh, s.pairs, s.state.record, regions, s.materials, s.options.cut_cell_stress,
+    computeCutGradients(s.mesh, s.pairs, s.state.record, regions, s.materials, s.boundary, s.options.cut_cell_stress,
                         s.options.shortest_bent_edge, s.work.cut);
   }
 

@@ -61,7 +61,7 @@ struct Fluid
       r(pair, SpecificVolume) *= squeezed;
     }
     Kokkos::deep_copy(s.state.record, r);
-    computeCutGradients(s.mesh, s.pairs, s.state.record, regions, s.materials, CutCellStress::FilledRegions,
+    computeCutGradients(s.mesh, s.pairs, s.state.record, regions, s.materials, s.boundary, CutCellStress::FilledRegions,
                         LagrangeOptions().shortest_bent_edge, s.work.cut);
     s.work.keeps_pressure = true;
     prepareWork(s.pairs, s.dof_nodes, s.work);
