@@ -124,19 +124,18 @@ PredictionSums accelerate(Scene &scene, CycleState &s, double dt, double kick)
   LagrangeOptions options = scene.lagrange;
   options.energy_lag = 0.5 * dt; // of the step that lies behind, which the one ahead stands for
   options.kick = kick;
-  if (scene.kinematics != Kinematics::Lagrangian)
-  {
-    PredictionSums const sums = computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary,
-                                                        scene.materials, options, kick, s.work);
-    bool const lumps = s.work.keeps_pressure && addLumpedForces(scene.mesh, s.pairs, s.state, s.regions, scene.boundary,
-                                                                scene.materials, options, s.work);
-    return lumps ? predictVelocities(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials,
-                                     options, kick, s.work)
-                 : sums;
-  }
+  bool const body_fitted = scene.kinematics == Kinematics::Lagrangian;
+  bool const lumps = s.work.keeps_pressure && !body_fitted &&
+                     locateCutFluids(scene.mesh, s.pairs, s.regions, scene.materials, options, s.work);
+  if (!body_fitted && !lumps)
+    return computeForcesAndPredict(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options,
+                                   kick, s.work);
   computeCornerForces(scene.mesh, s.pairs, s.state, scene.materials, options, s.work);
-  addSubzonalForces(scene.mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
-                    scene.lagrange.subzonal_pressure, s.work);
+  if (lumps)
+    addLumpedForces(scene.mesh, s.pairs, s.state, s.regions, scene.boundary, scene.materials, options, s.work);
+  if (body_fitted)
+    addSubzonalForces(scene.mesh, s.pairs, s.state, scene.materials, scene.subzone_fraction,
+                      scene.lagrange.subzonal_pressure, s.work);
   return predictVelocities(scene.mesh, s.pairs, s.dof_nodes, s.state, scene.boundary, scene.materials, options, kick,
                            s.work);
 }

@@ -6,7 +6,7 @@
 #include <Harmos_Fullness.hpp>
 #include <Harmos_Moments.hpp>
 #include <Harmos_SlipMirrors.hpp>
-#include <detail/Harmos_PairAccess.hpp>
+#include <detail/Harmos_CornerGradients.hpp>
 
 namespace Harmos
 {
@@ -190,22 +190,15 @@ struct CutGradientFunctor
         gradient(row, column) = 0.0;
       return;
     }
-    bool const about_axis = mesh.geometry == Geometry::Axisymmetric;
     Vector2 derivative[4];
     volumeDerivatives(q, region, ring, full, shortest_bent_edge, derivative);
     double hoop[4] = {};
-    if (about_axis)
+    if (mesh.geometry == Geometry::Axisymmetric)
       hoopMeans(q, region, hoop);
-    detail::Corners<double> const corners = detail::cellCorners(mesh, cell);
-    auto const plane = detail::meanGradient(corners);
-    double const mean[4][2] = {
-        {plane.x0, plane.y0}, {plane.x1, plane.y1}, {-plane.x0, -plane.y0}, {-plane.x1, -plane.y1}};
-    auto const about = detail::ringGradient(corners);
+    detail::CornerGradients const mean = detail::cellGradients(mesh, cell);
     Vector2 beyond[4];
     for (int k = 0; k < 4; ++k)
-      beyond[k] = {derivative[k][0] / filled - hoop[k] -
-                       (about_axis ? about.x[k] / about.volume : mean[k][0] / plane.area),
-                   derivative[k][1] / filled - (about_axis ? about.y[k] / about.volume : mean[k][1] / plane.area)};
+      beyond[k] = {derivative[k][0] / filled - hoop[k] - mean.of[k][0], derivative[k][1] / filled - mean.of[k][1]};
     beyond[3] = Vector2{0.0, 0.0} - (beyond[0] + beyond[1] + beyond[2]); // nothing for a translation, to the last digit
     double largest = 0.0;
     for (int k = 0; k < 4; ++k)
@@ -216,7 +209,7 @@ struct CutGradientFunctor
     {
       gradient(row, 3 * k + CutGradientX) = share * beyond[k][0];
       gradient(row, 3 * k + CutGradientY) = share * beyond[k][1];
-      gradient(row, 3 * k + CutHoop) = about_axis ? share * (hoop[k] - about.hoop[k] / about.volume) : 0.0;
+      gradient(row, 3 * k + CutHoop) = share * (hoop[k] - mean.hoop[k]);
     }
   }
 

@@ -14,8 +14,10 @@ namespace Harmos
 namespace
 {
 
+using detail::cellGradients;
 using detail::CornerGradients;
 using detail::Patch;
+using detail::planeGradients;
 
 /// A symmetric matrix sum_I w_I B_I B_I^T.
 struct GradientSquare
@@ -43,28 +45,6 @@ KOKKOS_INLINE_FUNCTION double largestSquare(CornerGradients const &b)
   for (int k = 0; k < 4; ++k)
     square.add(1.0, b.of[k], 0.0, 0.0);
   return square.largest();
-}
-
-KOKKOS_INLINE_FUNCTION CornerGradients planeGradients(Mesh const &mesh, int cell)
-{
-  auto const b = detail::meanGradient(detail::cellCorners(mesh, cell));
-  double const inverse = 1.0 / b.area;
-  Vector2 const first{inverse * b.x0, inverse * b.y0}, second{inverse * b.x1, inverse * b.y1};
-  return {{first, second, -1.0 * first, -1.0 * second}, {0.0, 0.0, 0.0, 0.0}};
-}
-
-KOKKOS_INLINE_FUNCTION CornerGradients cellGradients(Mesh const &mesh, int cell)
-{
-  if (mesh.geometry == Geometry::Planar)
-    return planeGradients(mesh, cell);
-  auto const b = detail::ringGradient(detail::cellCorners(mesh, cell));
-  CornerGradients result;
-  for (int k = 0; k < 4; ++k)
-  {
-    result.of[k] = {b.x[k] / b.volume, b.y[k] / b.volume};
-    result.hoop[k] = b.hoop[k] / b.volume;
-  }
-  return result;
 }
 
 /// Stiffness of a pair: c^2, and G / (rho c^2).

@@ -62,7 +62,7 @@ struct LagrangeWork
   bool keeps_pressure = false;    // whether computeCornerForces writes:
   View<double *[3]> pressure;     // num_pairs, of fluids: p, without lag and viscosity [Pa]; volume m sv; mass
   MeshPieces pieces;              // of computeForcesAndPredict
-  View<double *[8]> lumped;       // scratch of addLumpedForces
+  View<double *[8]> lumped;       // of locateCutFluids, for addLumpedForces
 };
 
 /// Columns of LagrangeWork::before.

@@ -3,7 +3,7 @@
 
 #include <Harmos_Bilinear.hpp>
 #include <Harmos_EquationOfState.hpp>
-#include <detail/Harmos_PairAccess.hpp>
+#include <detail/Harmos_CornerGradients.hpp>
 
 namespace Harmos
 {
@@ -20,18 +20,14 @@ enum LumpedColumn : int
   Drive = 7   // t . F
 };
 
-struct LumpedForces
+/// The fluids of cut cells, and where their mass is.
+struct CutFluids
 {
   Mesh mesh;
   CellMaterialPairs pairs;
-  View<double *[num_pair_fields]> record;
   FilledRegions regions;
-  BoundaryConditions boundary;
   View<Material *> materials;
   CutCellStress where;
-  CutGradients cut;
-  View<double *[3]> pressure;
-  View<double *[8]> corner_force;
   View<double *[8]> lumped;
 
   KOKKOS_INLINE_FUNCTION bool isDriven(int pair) const
@@ -42,7 +38,7 @@ struct LumpedForces
 
   /// visit(pair, row of its region) for the fluids of a mixed cell.
   template <class Visitor>
-  KOKKOS_INLINE_FUNCTION void forFluids(int i, Visitor const &visit) const
+  KOKKOS_INLINE_FUNCTION void forEach(int i, Visitor const &visit) const
   {
     int const cell = regions.mixed_cell(i), begin = pairs.offset(cell);
     for (int pair = begin; pair < pairs.offset(cell + 1); ++pair)
@@ -92,6 +88,16 @@ struct LumpedForces
     lumped(row, AlongY) = Math::sin(angle);
     lumped(row, Along) = (split / sum) * (split / sum) * dot(one_way, one_way) / (sum * sum);
   }
+};
+
+/// What drives them.
+struct LumpedForces : CutFluids
+{
+  View<double *[num_pair_fields]> record;
+  BoundaryConditions boundary;
+  CutGradients cut;
+  View<double *[3]> pressure;
+  View<double *[8]> corner_force;
 
   /// Part of a pair's mass at a corner's shape function.
   KOKKOS_INLINE_FUNCTION double partAt(int pair, int cell, int corner) const
@@ -103,19 +109,8 @@ struct LumpedForces
   /// Force of a pair's pressure at a corner per pressure: V B_I.
   KOKKOS_INLINE_FUNCTION Vector2 forcePerPressure(int pair, int cell, int corner) const
   {
-    detail::Corners<double> const x = detail::cellCorners(mesh, cell);
-    Vector2 b;
-    if (mesh.geometry == Geometry::Axisymmetric)
-    {
-      auto const about = detail::ringGradient(x);
-      b = {(about.x[corner] + about.hoop[corner]) / about.volume, about.y[corner] / about.volume};
-    }
-    else
-    {
-      auto const plane = detail::meanGradient(x);
-      double const sign = corner < 2 ? 1.0 / plane.area : -1.0 / plane.area;
-      b = corner % 2 == 0 ? Vector2{sign * plane.x0, sign * plane.y0} : Vector2{sign * plane.x1, sign * plane.y1};
-    }
+    detail::CornerGradients const mean = detail::cellGradients(mesh, cell);
+    Vector2 b = mean.of[corner] + Vector2{mean.hoop[corner], 0.0};
     if (cut.first_row(cell) >= 0)
     {
       int const row = cut.first_row(cell) + pair - pairs.offset(cell);
@@ -168,52 +163,59 @@ struct LumpedForces
 
 } // namespace
 
-bool addLumpedForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
-                     FilledRegions const &regions, BoundaryConditions const &boundary,
+bool locateCutFluids(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
                      View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work)
 {
   int const count = static_cast<int>(regions.polygon.extent(0));
   if (static_cast<int>(work.lumped.extent(0)) < count)
     work.lumped = View<double *[8]>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::lumped"),
                                     count + count / 8);
-  LumpedForces const f{
-      mesh,     pairs,         state.record,      regions,    boundary, materials, options.cut_cell_stress,
-      work.cut, work.pressure, work.corner_force, work.lumped};
+  CutFluids const f{mesh, pairs, regions, materials, options.cut_cell_stress, work.lumped};
   int any = 0;
   Kokkos::parallel_reduce(
       "Harmos::lagrange::locateFluids", RangePolicy(0, regions.num_mixed_cells),
       KOKKOS_LAMBDA(int i, int &found) {
-        f.forFluids(i,
-                    [&](int pair, int row)
-                    {
-                      f.locate(row, cellQuadrilateral(f.mesh, f.pairs.cell(pair)));
-                      found = 1;
-                    });
+        f.forEach(i,
+                  [&](int pair, int row)
+                  {
+                    f.locate(row, cellQuadrilateral(f.mesh, f.pairs.cell(pair)));
+                    found = 1;
+                  });
       },
       Kokkos::Max<int>(any));
-  if (any != 1)
-    return false;
+  return any == 1;
+}
+
+void addLumpedForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+                     FilledRegions const &regions, BoundaryConditions const &boundary,
+                     View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work)
+{
+  LumpedForces const f{{mesh, pairs, regions, materials, options.cut_cell_stress, work.lumped},
+                       state.record,
+                       boundary,
+                       work.cut,
+                       work.pressure,
+                       work.corner_force};
   Kokkos::parallel_for(
       "Harmos::lagrange::driveFluids", RangePolicy(0, regions.num_mixed_cells), KOKKOS_LAMBDA(int i) {
-        f.forFluids(i, [&](int pair, int row)
-                    { f.lumped(row, Drive) = f.lumped(row, Along) > 0.0 ? f.drive(pair, row) : 0.0; });
+        f.forEach(i, [&](int pair, int row)
+                  { f.lumped(row, Drive) = f.lumped(row, Along) > 0.0 ? f.drive(pair, row) : 0.0; });
       });
   Kokkos::parallel_for(
       "Harmos::lagrange::lumpForces", RangePolicy(0, regions.num_mixed_cells), KOKKOS_LAMBDA(int i) {
-        f.forFluids(i,
-                    [&](int pair, int row)
+        f.forEach(i,
+                  [&](int pair, int row)
+                  {
+                    double const drive = f.lumped(row, Along) * f.lumped(row, Drive);
+                    for (int k = 0; k < 4; ++k)
                     {
-                      double const drive = f.lumped(row, Along) * f.lumped(row, Drive);
-                      for (int k = 0; k < 4; ++k)
-                      {
-                        double const moved =
-                            (f.mesh.corner_share(f.pairs.cell(pair), k) - f.lumped(row, Part0 + k)) * drive;
-                        f.corner_force(pair, 2 * k) += moved * f.lumped(row, AlongX);
-                        f.corner_force(pair, 2 * k + 1) += moved * f.lumped(row, AlongY);
-                      }
-                    });
+                      double const moved =
+                          (f.mesh.corner_share(f.pairs.cell(pair), k) - f.lumped(row, Part0 + k)) * drive;
+                      f.corner_force(pair, 2 * k) += moved * f.lumped(row, AlongX);
+                      f.corner_force(pair, 2 * k + 1) += moved * f.lumped(row, AlongY);
+                    }
+                  });
       });
-  return true;
 }
 
 } // namespace Harmos

@@ -7,6 +7,11 @@
 namespace Harmos
 {
 
+/// Where the mass of each fluid of a cut cell is, and along what it may be driven: what addLumpedForces goes by.
+/// \return Whether there is any.
+bool locateCutFluids(Mesh const &mesh, CellMaterialPairs const &pairs, FilledRegions const &regions,
+                     View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work);
+
 /// \brief What drives fluids along interfaces, moved to where their mass is lumped: added to work.corner_force.
 ///
 /// A fluid that fills a part of a cell has its forces by the shape functions over that part (CutGradients): what drives
@@ -29,9 +34,8 @@ namespace Harmos
 /// All forces [N/m] (per radian about an axis: [N]). The law is of our own (doc/decisions/0045).
 ///
 /// \param work In: corner_force, cut, pressure (keeps_pressure) of all local pairs. Nodes at the rim of the halo do not
-/// have all their cells.
-/// \return Whether there is a fluid in a cut cell: predictVelocities is to follow.
-bool addLumpedForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
+/// have all their cells. locateCutFluids went before, predictVelocities is to follow.
+void addLumpedForces(Mesh const &mesh, CellMaterialPairs const &pairs, PairState const &state,
                      FilledRegions const &regions, BoundaryConditions const &boundary,
                      View<Material *> const &materials, LagrangeOptions const &options, LagrangeWork &work);
 

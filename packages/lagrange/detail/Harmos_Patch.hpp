@@ -4,18 +4,12 @@
 
 #include <Harmos_BoundaryConditions.hpp>
 #include <Harmos_Vector.hpp>
+#include <detail/Harmos_CornerGradients.hpp>
 
 namespace Harmos
 {
 namespace detail
 {
-
-/// Gradients of a pair at the corners of its cell; hoop: N_I / r, planar zero. [1/length]
-struct CornerGradients
-{
-  Vector2 of[4];
-  double hoop[4];
-};
 
 /// A symmetric, positive semi-definite, tridiagonal matrix.
 struct Tridiagonal

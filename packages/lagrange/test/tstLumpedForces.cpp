@@ -81,7 +81,8 @@ struct Fluid
   Forces added()
   {
     Forces const before = forces();
-    EXPECT_TRUE(addLumpedForces(s.mesh, s.pairs, s.state, regions, s.boundary, s.materials, LagrangeOptions(), s.work));
+    EXPECT_TRUE(locateCutFluids(s.mesh, s.pairs, regions, s.materials, LagrangeOptions(), s.work));
+    addLumpedForces(s.mesh, s.pairs, s.state, regions, s.boundary, s.materials, LagrangeOptions(), s.work);
     Forces change = forces();
     for (std::size_t i = 0; i < change.size(); ++i)
       for (int k = 0; k < 8; ++k)
