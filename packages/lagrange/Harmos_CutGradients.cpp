@@ -106,6 +106,46 @@ KOKKOS_INLINE_FUNCTION double partOfFace(Quadrilateral const &q, int face, Regio
   return length / norm(q[(face + 1) % 4] - q[face]);
 }
 
+/// Columns of CutGradients::extent.
+enum ExtentColumn : int
+{
+  ExtentXX = 0, // squaredExtent; below zero: a region without an area
+  ExtentXY = 1,
+  ExtentYY = 2,
+  PartOfFace = 3 // of the cell's faces k = 0..3
+};
+
+/// The extents of the regions, each by itself, and what parts of their cells' faces they lie on.
+struct ExtentFunctor
+{
+  Mesh mesh;
+  CellMaterialPairs pairs;
+  FilledRegions regions;
+  View<Material *> materials;
+  CutCellStress where;
+  View<double *[7]> extent;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    int const cell = regions.mixed_cell(i), begin = pairs.offset(cell);
+    Quadrilateral const q = cellQuadrilateral(mesh, cell);
+    for (int pair = begin; pair < pairs.offset(cell + 1); ++pair)
+    {
+      if (!actsOnFilledRegion(where, materials(pairs.material(pair))))
+        continue;
+      int const row = regions.cell_region(cell) + pair - begin;
+      Region const &region = regions.polygon(row);
+      bool const any = region.size >= 3 && area(region) > 0.0;
+      SquaredExtent const own = any ? squaredExtent(region) : SquaredExtent{-1.0, 0.0, -1.0};
+      extent(row, ExtentXX) = own.xx;
+      extent(row, ExtentXY) = own.xy;
+      extent(row, ExtentYY) = own.yy;
+      for (int face = 0; face < 4; ++face)
+        extent(row, PartOfFace + face) = any ? partOfFace(q, face, region) : 0.0;
+    }
+  }
+};
+
 struct CutGradientFunctor
 {
   Mesh mesh;
@@ -119,6 +159,7 @@ struct CutGradientFunctor
   View<int *> first_row;
   View<double *[12]> gradient;
   View<double *[3]> lost_extent;
+  View<double *[7]> extent;
 
   KOKKOS_INLINE_FUNCTION void storeLost(int row, double share, SquaredExtent const &whole,
                                         SquaredExtent const &own) const
@@ -128,14 +169,38 @@ struct CutGradientFunctor
     lost_extent(row, LostExtentYY) = share * (whole.yy - own.yy);
   }
 
+  KOKKOS_INLINE_FUNCTION SquaredExtent ownExtent(int row) const
+  {
+    return {extent(row, ExtentXX), extent(row, ExtentXY), extent(row, ExtentYY)};
+  }
+
+  /// Whether a material goes on beyond a face (Mesh::face_neighbour).
+  /// \param open In: the part of the face that this side lies on. Out: that both do.
+  KOKKOS_INLINE_FUNCTION bool isContinued(int beyond, int material, double &open, SquaredExtent &continued) const
+  {
+    int const other = beyond / 4, pair = beyond < 0 ? -1 : pairs.find(other, material);
+    if (pair < 0)
+      return false;
+    int const first = regions.cell_region(other);
+    if (first < 0)
+    {
+      continued = squaredExtent(cellQuadrilateral(mesh, other));
+      return true;
+    }
+    int const row = first + pair - pairs.offset(other);
+    continued = ownExtent(row);
+    open = Math::min(open, extent(row, PartOfFace + beyond % 4));
+    return continued.xx >= 0.0 && open > 0.0;
+  }
+
   /// Square of the extent of a region and of what continues it in the cells beyond its faces, at most that of its cell:
   /// along a principal axis e of the region, those have n . e times their extent along the normal n of the face, times
   /// the part of the face that both sides lie on. A part of a cell beside a full one has the extent of its cell, a film
   /// its thickness. Beyond a slip wall is the region's own image.
-  KOKKOS_INLINE_FUNCTION SquaredExtent reach(int cell, int material, Quadrilateral const &q, Region const &region,
+  KOKKOS_INLINE_FUNCTION SquaredExtent reach(int row, int cell, int material, Quadrilateral const &q,
                                              SquaredExtent const &whole) const
   {
-    SquaredExtent const own = squaredExtent(region);
+    SquaredExtent const own = ownExtent(row);
     double const angle = 0.5 * Math::atan2(own.xy, 0.5 * (own.xx - own.yy));
     Vector2 const axis[2] = {{Math::cos(angle), Math::sin(angle)}, {-Math::sin(angle), Math::cos(angle)}};
     double length[2];
@@ -143,21 +208,11 @@ struct CutGradientFunctor
       length[i] = Math::sqrt(Math::max(own.along(axis[i]), 0.0));
     for (int face = 0; face < 4; ++face)
     {
-      int const beyond = mesh.face_neighbour(cell, face);
-      bool const mirror = SlipMirrors::isSlip(mesh, boundary, cell, face);
-      int const pair = beyond < 0 ? -1 : pairs.find(beyond / 4, material);
-      double open = mirror || pair >= 0 ? partOfFace(q, face, region) : 0.0;
-      if (!(open > 0.0))
-        continue;
+      double open = extent(row, PartOfFace + face);
       SquaredExtent continued = own;
-      if (!mirror)
-      {
-        Region const other = regions.region(mesh, pairs, pair);
-        if (other.size < 3 || !(area(other) > 0.0))
-          continue;
-        open = Math::min(open, partOfFace(cellQuadrilateral(mesh, beyond / 4), beyond % 4, other));
-        continued = squaredExtent(other);
-      }
+      if (!(open > 0.0) || (!SlipMirrors::isSlip(mesh, boundary, cell, face) &&
+                            !isContinued(mesh.face_neighbour(cell, face), material, open, continued)))
+        continue;
       Vector2 const side = q[(face + 1) % 4] - q[face];
       Vector2 const normal = (1.0 / norm(side)) * Vector2{side[1], -side[0]};
       double const more = open * Math::sqrt(Math::max(continued.along(normal), 0.0));
@@ -183,7 +238,9 @@ struct CutGradientFunctor
     AreaWeight const ring = areaWeight(mesh.geometry, {0.0, 0.0});
     double const filled = region.size < 3 ? 0.0 : volume(region, ring);
     SquaredExtent const whole = squaredExtent(q);
-    storeLost(row, share, whole, filled > 0.0 ? reach(cell, material, q, region, whole) : SquaredExtent{0.0, 0.0, 0.0});
+    storeLost(row, share, whole,
+              share > 0.0 && extent(row, ExtentXX) >= 0.0 ? reach(row, cell, material, q, whole)
+                                                          : SquaredExtent{0.0, 0.0, 0.0});
     if (!(filled > least_volume * mesh.cell_volume(cell)))
     {
       for (int column = 0; column < 12; ++column)
@@ -272,9 +329,15 @@ void computeCutGradients(Mesh const &mesh, CellMaterialPairs const &pairs,
   if (cut.lost_extent.extent(0) < cut.gradient.extent(0))
     cut.lost_extent = View<double *[3]>(
         Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::lost_extent"), cut.gradient.extent(0));
+  if (cut.extent.extent(0) < cut.gradient.extent(0))
+    cut.extent = View<double *[7]>(Kokkos::view_alloc(Kokkos::WithoutInitializing, "Harmos::lagrange::extent"),
+                                   cut.gradient.extent(0));
+  Kokkos::parallel_for("Harmos::lagrange::extents", RangePolicy(0, regions.num_mixed_cells),
+                       ExtentFunctor{mesh, pairs, regions, materials, where, cut.extent});
   Kokkos::parallel_for("Harmos::lagrange::cutGradients", RangePolicy(0, regions.num_mixed_cells),
                        CutGradientFunctor{mesh, pairs, record, regions, materials, boundary.boundary, where,
-                                          shortest_bent_edge, cut.first_row, cut.gradient, cut.lost_extent});
+                                          shortest_bent_edge, cut.first_row, cut.gradient, cut.lost_extent,
+                                          cut.extent});
 }
 
 } // namespace Harmos

@@ -53,6 +53,7 @@ struct CutGradients
   View<int *> first_row;         // by cell: row of its first pair; -1: cells' means for all; extent 0: so everywhere
   View<double *[12]> gradient;   // by row, 3 I + CutGradientColumn; rows follow the pairs of a cell [1/length]
   View<double *[3]> lost_extent; // by row: what the square of the extent of the region lacks of its cell's [length^2]
+  View<double *[7]> extent;      // scratch of computeCutGradients
 };
 
 /// Part of a cell below which the gradient of a solid that is worn, or beside void, goes back to the cell's mean, in

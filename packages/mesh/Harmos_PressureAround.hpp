@@ -13,7 +13,8 @@ namespace Harmos
 ///
 ///   (p_0 V_0 + sum over j of min(max(p_j, 0), 1.1 p_0) V_j) / (V_0 + sum over j of V_j).
 ///
-/// Images beyond slip walls are neighbours too. The tractions of a fluid have it, and the work of what a gas fills (doc/decisions/0033).
+/// Images beyond slip walls are neighbours too. The tractions of a fluid have it, and the work of what a gas fills
+/// (doc/decisions/0033).
 /// \param own p_0 >= 0 [Pa]. \param volume V_0 > 0 [length^2, or per radian length^3].
 /// \param pressure_of p_j of a pair. \param volume_of V_j of a pair, of which the material fills that much.
 template <class PressureOf, class VolumeOf>
