@@ -303,7 +303,7 @@ Scene makeScene(Deck const &deck, DeckMesh const &whole, Mesh const &mesh, Excha
     }
   Kokkos::deep_copy(scene.constraint.interaction, interaction);
   scene.remap = deck.remap;
-  scene.remap.mirrored_walls = true;
+  scene.remap.mirrored_walls = deck.prescribed.kind == FieldKind::None;
   scene.remap.start_energy = deviceCopy("start_energy", warmestBodies(deck));
   scene.prescribed = deck.prescribed;
   if (deck.smoother.moves())

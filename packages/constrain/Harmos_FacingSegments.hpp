@@ -116,6 +116,19 @@ struct SampleGatherer
   }
 };
 
+/// MirrorImage::reflects of a pack of points.
+KOKKOS_FORCEINLINE_FUNCTION auto reflects(MirrorImage const &image, Pack const &x, Pack const &y)
+{
+  auto beside = x == x;
+  for (int i = 0; i < image.count; ++i)
+  {
+    Vector2 const t = perpendicular(image.normal[i]);
+    Pack const along = Pack(t[0]) * x + Pack(t[1]) * y;
+    beside = both(beside, both(Pack(image.from[i]) <= along, along <= Pack(image.to[i])));
+  }
+  return beside;
+}
+
 /// Length of the segments of two materials, both sides together, that lie on each other within two cells of a segment's
 /// point. [cells]
 /// \param mirrors Of the cell of s; images count.
@@ -141,7 +154,9 @@ KOKKOS_INLINE_FUNCTION double touchingLength(FacingSegments const &facing, SlipM
                                auto const theirs = either(both(of == a, faced == b), both(of == b, faced == a));
                                auto const near =
                                    both(x * x + y * y <= Pack(box[0] * box[0]), laneNumbers() < Pack(end - i));
-                               auto const lies = both(theirs, loadPack(&facing.column(FacingGap, i)) <= least);
+                               auto lies = both(theirs, loadPack(&facing.column(FacingGap, i)) <= least);
+                               if (image >= 0)
+                                 lies = both(lies, reflects(mirrors.image[image], x + Pack(at[0]), y + Pack(at[1])));
                                sum += select(both(near, lies), loadPack(&facing.column(FacingLength, i)), zero);
                              }
                            });

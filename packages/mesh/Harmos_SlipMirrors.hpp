@@ -54,9 +54,13 @@ struct SlipMirrors
   int count = 0;
   MirrorImage image[most];
 
+  KOKKOS_DEFAULTED_FUNCTION SlipMirrors() = default; // none
+
   /// \param rows How many cells on walls are looked for, the cell's own row the first.
   KOKKOS_INLINE_FUNCTION SlipMirrors(Mesh const &mesh, View<Boundary *> const &boundary, int cell, int rows)
   {
+    if (rows < 1 || boundary.extent(0) == 0)
+      return;
     int found[4];
     MirrorImage single[4];
     for (int k = 0; k < 4; ++k)
@@ -84,8 +88,8 @@ struct SlipMirrors
   /// Whether a face of a cell is on a slip wall (none where no boundaries are given).
   static KOKKOS_INLINE_FUNCTION bool isSlip(Mesh const &mesh, View<Boundary *> const &boundary, int cell, int face)
   {
-    int const number = mesh.face_boundary(cell, face);
-    return number >= 0 && boundary.extent(0) > 0 && boundary(number).kind == BoundaryKind::SlipWall;
+    int const number = boundary.extent(0) == 0 ? -1 : mesh.face_boundary(cell, face);
+    return number >= 0 && boundary(number).kind == BoundaryKind::SlipWall;
   }
 
 private:
@@ -112,14 +116,16 @@ private:
     wall.offset[0] = dot(wall.normal[0], q[k]);
     wall.from[0] = dot(perpendicular(wall.normal[0]), q[k]);
     wall.to[0] = wall.from[0] + length;
-    follow(mesh, boundary, cell, k, 1, wall);
-    follow(mesh, boundary, cell, k, 3, wall);
-    return true;
+    bool const bends_ahead = follow(mesh, boundary, cell, k, 1, wall);
+    bool const bends_behind = follow(mesh, boundary, cell, k, 3, wall);
+    // one face of an arc is no wall
+    return !((bends_ahead || bends_behind) && !(wall.to[0] - wall.from[0] > 1.001 * length));
   }
 
   /// How far the wall goes on straight to one side of a cell on it.
   /// \param side 1: beyond the face behind the cell's face k, 3: beyond the one before it.
-  static KOKKOS_INLINE_FUNCTION void follow(Mesh const &mesh, View<Boundary *> const &boundary, int cell, int k,
+  /// \return Whether it ends in a bend.
+  static KOKKOS_INLINE_FUNCTION bool follow(Mesh const &mesh, View<Boundary *> const &boundary, int cell, int k,
                                             int side, MirrorImage &wall)
   {
     constexpr int most_cells = 4;
@@ -129,20 +135,21 @@ private:
     {
       int const beyond = mesh.face_neighbour(cell, face);
       if (beyond < 0)
-        return;
+        return false;
       cell = beyond / 4;
       int const on_wall = (beyond % 4 + side) % 4;
       face = (beyond % 4 + 2) % 4;
       if (mesh.face_neighbour(cell, on_wall) >= 0 || !isSlip(mesh, boundary, cell, on_wall))
-        return;
+        return false;
       Quadrilateral const q = cellQuadrilateral(mesh, cell);
       Vector2 const end = q[(on_wall + (side == 1 ? 1 : 0)) % 4];
       double const place = dot(perpendicular(wall.normal[0]), end);
       if (Math::fabs(dot(wall.normal[0], end) - wall.offset[0]) > straight * (wall.to[0] - wall.from[0]))
-        return;
+        return true;
       wall.from[0] = Math::min(wall.from[0], place);
       wall.to[0] = Math::max(wall.to[0], place);
     }
+    return false;
   }
 };
 
@@ -171,6 +178,8 @@ template <class Visitor>
 KOKKOS_INLINE_FUNCTION void forMirroredNeighbours(Mesh const &mesh, View<Boundary *> const &boundary, int cell,
                                                   Visitor const &visit)
 {
+  if (boundary.extent(0) == 0)
+    return;
   if (mesh.face_boundary(cell, 0) < 0 && mesh.face_boundary(cell, 1) < 0 && mesh.face_boundary(cell, 2) < 0 &&
       mesh.face_boundary(cell, 3) < 0)
     return;

@@ -56,6 +56,38 @@ TEST(NormalFit, besideACornerOfABodyInsideOfAnother_keepsTheFace)
   EXPECT_GT(angleBetween(fit(s, face, false), face), 0.1);
 }
 
+TEST(SmoothnessAt, ofACircleAboutAPointOfTheMirrorIsOne_ofAKinkNone)
+{
+  // The mirror is x = 0, the body at x > 0; samples seen from a point 0.4 cells from it.
+  Vector2 const wall{-1.0, 0.0};
+  double const distance = 0.4, radius = 6.0;
+  FitSamples circle, rough;
+  for (int side = 0; side < 2; ++side)
+    for (int i = 0; i < 4; ++i)
+    {
+      double const x = 0.35 + 0.7 * i, angle = std::asin(x / radius);
+      Vector2 const at{x - distance, radius * std::cos(angle) - radius};
+      EXPECT_TRUE(circle.push(sampleAt(at, {std::sin(angle), std::cos(angle)}, 0.7, side)));
+      double const off = angle + (i % 2 == 0 ? 0.02 : -0.02);
+      EXPECT_TRUE(rough.push(sampleAt(at, {std::sin(off), std::cos(off)}, 0.7, side)));
+    }
+  EXPECT_EQ(smoothnessAt(circle, wall, distance, {0.0, 1.0}), 1.0);
+  EXPECT_EQ(smoothnessAt(rough, wall, distance, {0.0, 1.0}), 1.0);
+  double const sine[4] = {0.01, 0.02, 0.025, 0.1}, least[4] = {1.0, 0.5, 0.1, 0.0}, most[4] = {1.0, 0.9, 0.5, 0.0};
+  for (int j = 0; j < 4; ++j)
+  {
+    FitSamples leg;
+    Vector2 const normal{-sine[j], std::sqrt(1.0 - sine[j] * sine[j])};
+    for (int i = 0; i < 4; ++i)
+      EXPECT_TRUE(leg.push(sampleAt({0.35 + 0.7 * i - distance, sine[j] * i}, normal, 0.7, 0)));
+    double const part = smoothnessAt(leg, wall, distance, {0.0, 1.0});
+    EXPECT_GE(part, least[j]);
+    EXPECT_LE(part, most[j]);
+    // the other face of a wedge, that looks the other way, is not asked
+    EXPECT_EQ(smoothnessAt(leg, wall, distance, {0.0, -1.0}), 0.0);
+  }
+}
+
 TEST(NormalFit, noSamples_returnsTheFallback)
 {
   Vector2 const n = fit({});

@@ -273,10 +273,9 @@ struct FinishFunctor
     auto const volume_of = [&](int pair)
     { return in.state.record(pair, VolumeFraction) * in.mesh.cell_volume(in.pairs.cell(pair)); };
     double const own = equationOfState(in.materials(material), s, e).pressure;
-    double const work =
-        part * s *
-        pressureAround(in.mesh, in.conditions.boundary, in.pairs, cell, material, own, acceptors.sum(c, VolumeSum),
-                       pressure_of, volume_of);
+    double const work = part * s *
+                        pressureAround(in.mesh, in.mirrors(), in.pairs, cell, material, own,
+                                       acceptors.sum(c, VolumeSum), pressure_of, volume_of);
     acceptors.record(c, SpecificVolume) = s + part * s;
     acceptors.record(c, InternalEnergy) = e - work;
     return acceptors.record(c, Mass) * work;

@@ -136,10 +136,10 @@ struct SweptStage
   bool second_order; // or third
   bool third_order;
   RemapLimiter limiter;
-  double const *ranges; // fieldRanges: rows of 32 by material; null unless RangeInside
-  bool mirrored_walls;  // RemapOptions
+  double const *ranges;     // fieldRanges: rows of 32 by material; null unless RangeInside
+  Boundary const *boundary; // null: fields end at walls (RemapOptions::mirrored_walls)
 
-  RowPointer<int, 4> cell_node, face_neighbour;
+  RowPointer<int, 4> cell_node, face_neighbour, face_boundary;
   RowPointer<double, 2> position; // at the start of the motion
   RowPointer<double, 2> target;   // of the mesh
   bool retargeted;                // these are not the same
@@ -193,29 +193,25 @@ struct SweptStage
   {
     return ranges != nullptr && pure_material[c] >= 0 && (flags[c] & NeighbourBit << face) == 0;
   }
-  /// Whether the fields go on beyond a face as their mirror image: it is on a straight slip wall at rest, which one of
-  /// its nodes at least is free to slip along. \param[out] normal Unit; out of the mesh.
+  /// Whether the fields go on beyond a face as their mirror image: it is on a straight slip wall. A node that is free
+  /// to slip along it has its normal alone. \param[out] normal Unit; out of the mesh.
   KOKKOS_INLINE_FUNCTION bool mirrorsAt(int cell, int face, Vector2 &normal) const
   {
-    if (!mirrored_walls || face_neighbour(cell, face) >= 0)
+    int const number = boundary == nullptr ? -1 : face_boundary(cell, face);
+    if (number < 0 || face_neighbour(cell, face) >= 0 || boundary[number].kind != BoundaryKind::SlipWall)
       return false;
     int const a = cell_node(cell, face), b = cell_node(cell, (face + 1) & 3);
-    if (node_condition[a] < 0 || node_condition[b] < 0)
-      return false;
     Vector2 const along = normalised(Vector2{position(b, 0) - position(a, 0), position(b, 1) - position(a, 1)});
     normal = {along[1], -along[0]};
-    int slipping = 0;
     for (int node : {a, b})
     {
-      NodeCondition const &wall = condition[node_condition[node]];
-      bool holds = false;
-      for (int j = 0; j < wall.count; ++j)
-        holds = holds || (wall.value[j] == 0.0 && Math::fabs(cross(wall.normal[j], normal)) < 1e-12);
-      if (!holds)
+      if (node_condition[node] < 0)
         return false;
-      slipping += wall.count == 1 ? 1 : 0;
+      NodeCondition const &wall = condition[node_condition[node]];
+      if (wall.count == 1 && !(Math::fabs(cross(wall.normal[0], normal)) < 1e-12))
+        return false;
     }
-    return slipping > 0;
+    return true;
   }
   /// Rows of fieldRanges for the fields of a record.
   KOKKOS_FORCEINLINE_FUNCTION double const *leastOf(int c) const { return ranges + 32 * pure_material[c]; }
