@@ -2,10 +2,9 @@
 #ifndef HARMOS_DONOR_POLYNOMIAL_HPP
 #define HARMOS_DONOR_POLYNOMIAL_HPP
 
-#include <detail/Harmos_Donors.hpp>
-
 #include <Harmos_AreaWeight.hpp>
 #include <detail/Harmos_CornerFit.hpp>
+#include <detail/Harmos_DonorNeighbours.hpp>
 #include <detail/Harmos_OverlayList.hpp>
 #include <detail/Harmos_RangeLimit.hpp>
 
@@ -83,17 +82,12 @@ struct LinearWeights
 /// in the mean of every overlay to their range (DonorPolynomial).
 ///
 /// Gradients of the corner velocities come from velocities before stage 1, so that they need no wider halo.
-struct PolynomialFinder
+struct PolynomialFinder : DonorNeighbours
 {
   using Polynomial = DonorPolynomial;
   using OverlayMoments = Moments<2>;
   using PlaneMoments = Moments<2>; // what an overlay is integrated by
   static KOKKOS_INLINE_FUNCTION constexpr bool overlaysInPacks() { return true; }
-
-  Input in;
-  Classes classes;
-  StageState stage;
-  Donors donors;
 
   KOKKOS_INLINE_FUNCTION static Polynomial constant(StageFields const &mean) { return constantPolynomial(mean); }
 
@@ -172,98 +166,6 @@ struct PolynomialFinder
     StageFields difference[4];
   };
 
-  /// A same-material pair of a neighbour between the stages.
-  struct Neighbour
-  {
-    StageFields value; // corner velocities before stage 1, in the order of the donor's corners
-    double filled;     // part of its cell before the move: that of the target cell would make the weights lopsided
-    Vector2 centroid;
-    Vector2 centre; // of its cell
-  };
-
-  KOKKOS_INLINE_FUNCTION Vector2 cellCentre(int donor) const
-  {
-    return {donors.shape(donor, 6), donors.shape(donor, 7)};
-  }
-
-  KOKKOS_INLINE_FUNCTION bool fromDonor(int index, int material, int rotation, Neighbour &n) const
-  {
-    int const other = donors.find(index, material);
-    if (other < 0)
-      return false;
-    n.filled = in.state.record(donors.head(other).pair, VolumeFraction);
-    n.centroid = {donors.shape(other, 1), donors.shape(other, 2)};
-    n.centre = cellCentre(other);
-    n.value = {FieldPack(&donors.value(other, 0)), rotatedCorners(&donors.half(other, 0), rotation)};
-    return true;
-  }
-
-  /// A pure cell that is at home.
-  KOKKOS_INLINE_FUNCTION bool fromCell(int cell, int material, int rotation, Neighbour &n) const
-  {
-    if (classes.pure_material(cell) != material)
-      return false;
-    int const pair = in.pairs.offset(cell);
-    n.filled = 1.0;
-    n.centroid = n.centre = cellCentroid(in.mesh, cell);
-    FieldPack record(&stage.record(pair, 0));
-    record.set<DensityField>(stage.record(pair, Mass) / in.mesh.cell_volume(cell));
-    record.set<KineticField>(stage.kineticEnergy(in, pair));
-    double corner[8];
-    cornerVelocities(in.pairs, in.half, pair, corner);
-    n.value = {record, rotatedCorners(corner, rotation)};
-    return true;
-  }
-
-  KOKKOS_INLINE_FUNCTION bool isBeyondFace(int cell, int neighbour) const
-  {
-    bool any = false;
-    for (int k = 0; k < 4; ++k)
-      any = any || (in.mesh.face_neighbour(cell, k) >= 0 && in.mesh.face_neighbour(cell, k) / 4 == neighbour);
-    return any;
-  }
-
-  /// What the same material holds in item j of the cells' neighbours; false where that is nothing.
-  KOKKOS_INLINE_FUNCTION bool findNeighbour(int j, int material, Neighbour &n) const
-  {
-    int const cell = in.mesh.cell_neighbour.item(j);
-    int const index = classes.interface_index(cell);
-    int const rotation = in.links.rotation(j);
-    return index >= 0 ? fromDonor(index, material, rotation, n) : fromCell(cell, material, rotation, n);
-  }
-
-  /// visit(what is there, item of mesh.cell_neighbour or -1 for the donor itself, mirror) for the images of the
-  /// material in a donor's cell and around it beyond slip walls. \param q Of the donor, with its corner velocities
-  /// before stage 1.
-  template <class Visitor>
-  KOKKOS_INLINE_FUNCTION void forImages(int cell, int donor, StageFields const &q, Visitor const &visit) const
-  {
-    forMirroredNeighbours(in.mesh, in.mirrors(), cell,
-                          [&](int j, MirrorImage const &image)
-                          {
-                            Neighbour n;
-                            if (j < 0)
-                              n = {q,
-                                   in.state.record(donors.head(donor).pair, VolumeFraction),
-                                   {donors.shape(donor, 1), donors.shape(donor, 2)},
-                                   cellCentre(donor)};
-                            else if (!findNeighbour(j, donors.head(donor).material, n))
-                              return;
-                            for (int i = 0; i < image.count; ++i)
-                              mirrorFields(n.value, image.normal[i], image.face[i]);
-                            n.centroid = image.point(n.centroid);
-                            n.centre = image.point(n.centre);
-                            visit(n, j, image);
-                          });
-  }
-
-  /// Whether the mesh ends at a face of a cell, and the fields with it.
-  KOKKOS_INLINE_FUNCTION bool fieldsEndAt(int cell, int k) const
-  {
-    return in.mesh.face_neighbour(cell, k) < 0 &&
-           !(in.options.mirrored_walls && SlipMirrors::isSlip(in.mesh, in.conditions.boundary, cell, k));
-  }
-
   /// Least-squares gradients over the same-material neighbours and their images: of the corner velocities between the
   /// cells' centres, of the others between the centroids. Widens the range by the neighbours' values.
   KOKKOS_INLINE_FUNCTION void gradient(int cell, int donor, StageFields const &q, Gradient &g,
@@ -282,7 +184,7 @@ struct PolynomialFinder
       of_corner.add(n.centre - centre, n.filled, difference.corner);
       if (in.options.limiter == RemapLimiter::VanLeer && beyond_face && beyond.size < 4)
       {
-        beyond.offset[beyond.size] = n.centroid - centroid;
+        beyond.offset[beyond.size] = n.centroid - centroid; // not d: GCC 12 takes it for dangling
         beyond.difference[beyond.size++] = n.value - q;
       }
       g.lower = {lesser(g.lower.record, n.value.record), lesser(g.lower.corner, n.value.corner)};

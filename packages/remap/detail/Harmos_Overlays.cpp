@@ -382,7 +382,7 @@ void intersect(Input const &in, Classes const &classes, StageState const &stage,
 {
   overlays.slots = in.links.slots;
   grow(overlays.sum, "overlaySum", static_cast<std::size_t>(overlays.slots) * donors.num);
-  PolynomialFinder const finder{in, classes, stage, donors};
+  PolynomialFinder const finder{{in, classes, stage, donors}};
   RangePolicy const range(0, classes.num_interface);
   bool const rings = in.mesh.geometry == Geometry::Axisymmetric;
   if (in.options.order == 3 && rings)
