@@ -184,8 +184,8 @@ KOKKOS_INLINE_FUNCTION double curvedGap(SegmentBins const &bins, SlipMirrors con
 /// With the arc's height alpha below the corner and its curvature gamma, in cells h: -alpha h, where the side is smooth
 /// and that is more than the gap by at most -gamma h / 6, what the end of a chord stands out; else the gap as it is.
 ///
-/// \param mirrors Of the face's cell. \param face Segment at the foot. \param n Unit normal of its side there. \param
-/// gap To the facet. [length]
+/// \param mirrors Of the face's cell.
+/// \param face Segment at the foot. \param n Unit normal of its side there. \param gap To the facet. [length]
 KOKKOS_INLINE_FUNCTION double gapAboveArc(SegmentBins const &bins, SlipMirrors const &mirrors,
                                           InterfaceSegment const &face, Vector2 const &corner, Vector2 const &n,
                                           double gap)

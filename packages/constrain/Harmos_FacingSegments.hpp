@@ -116,19 +116,6 @@ struct SampleGatherer
   }
 };
 
-/// MirrorImage::reflects of a pack of points.
-KOKKOS_FORCEINLINE_FUNCTION auto reflects(MirrorImage const &image, Pack const &x, Pack const &y)
-{
-  auto beside = x == x;
-  for (int i = 0; i < image.count; ++i)
-  {
-    Vector2 const t = perpendicular(image.normal[i]);
-    Pack const along = Pack(t[0]) * x + Pack(t[1]) * y;
-    beside = both(beside, both(Pack(image.from[i]) <= along, along <= Pack(image.to[i])));
-  }
-  return beside;
-}
-
 /// Length of the segments of two materials, both sides together, that lie on each other within two cells of a segment's
 /// point. [cells]
 /// \param mirrors Of the cell of s; images count.
@@ -142,24 +129,24 @@ KOKKOS_INLINE_FUNCTION double touchingLength(FacingSegments const &facing, SlipM
   for (int image = -1; image < mirrors.count; ++image)
   {
     Vector2 const at = image < 0 ? s.point : mirrors.image[image].point(s.point);
-    facing.bins.forEachRun(at - box, at + box,
-                           [&](int begin, int end)
-                           {
-                             for (int i = begin; i < end; i += pack_width)
-                             {
-                               Pack const x = loadPack(&facing.column(FacingX, i)) - Pack(at[0]);
-                               Pack const y = loadPack(&facing.column(FacingY, i)) - Pack(at[1]);
-                               Pack const of = loadPack(&facing.column(FacingMaterial, i));
-                               Pack const faced = loadPack(&facing.column(FacedMaterial, i));
-                               auto const theirs = either(both(of == a, faced == b), both(of == b, faced == a));
-                               auto const near =
-                                   both(x * x + y * y <= Pack(box[0] * box[0]), laneNumbers() < Pack(end - i));
-                               auto lies = both(theirs, loadPack(&facing.column(FacingGap, i)) <= least);
-                               if (image >= 0)
-                                 lies = both(lies, reflects(mirrors.image[image], x + Pack(at[0]), y + Pack(at[1])));
-                               sum += select(both(near, lies), loadPack(&facing.column(FacingLength, i)), zero);
-                             }
-                           });
+    facing.bins.forEachRun(
+        at - box, at + box,
+        [&](int begin, int end)
+        {
+          for (int i = begin; i < end; i += pack_width)
+          {
+            Pack const x = loadPack(&facing.column(FacingX, i)) - Pack(at[0]);
+            Pack const y = loadPack(&facing.column(FacingY, i)) - Pack(at[1]);
+            Pack const of = loadPack(&facing.column(FacingMaterial, i));
+            Pack const faced = loadPack(&facing.column(FacedMaterial, i));
+            auto const theirs = either(both(of == a, faced == b), both(of == b, faced == a));
+            auto const near = both(x * x + y * y <= Pack(box[0] * box[0]), laneNumbers() < Pack(end - i));
+            auto lies = both(theirs, loadPack(&facing.column(FacingGap, i)) <= least);
+            if (image >= 0)
+              lies = both(lies, mirrors.image[image].reflects(Pack(x + Pack(at[0])), Pack(y + Pack(at[1]))));
+            sum += select(both(near, lies), loadPack(&facing.column(FacingLength, i)), zero);
+          }
+        });
   }
   return laneSum(sum) / s.cell_size;
 }

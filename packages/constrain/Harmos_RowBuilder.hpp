@@ -207,9 +207,12 @@ struct RowBuilder
     double const h = a.cell_size;
     bool const fitted = a.face >= 0 && mesh.face_neighbour(a.cell, a.face) < 0;
     if (to.gap > touching_gap * h || a.parts * a.length > longest * h || fitted || b.material < 0 || isPressed(a, b) ||
-        (dt > 0.0 && areBonded(a, b)) || touchingLength(facing, mirrorsOf(a.cell), a, b.material) > few)
+        (dt > 0.0 && areBonded(a, b)))
       return to;
-    return {to.segment, Math::max(to.gap, h * curvedGap(bins, mirrorsOf(a.cell), a, b.material, normal)), to.cosine};
+    SlipMirrors const mirrors = mirrorsOf(a.cell);
+    if (touchingLength(facing, mirrors, a, b.material) > few)
+      return to;
+    return {to.segment, Math::max(to.gap, h * curvedGap(bins, mirrors, a, b.material, normal)), to.cosine};
   }
 
   /// A half of a segment, with its Gauss point of the whole.

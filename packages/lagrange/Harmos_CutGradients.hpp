@@ -107,6 +107,7 @@ constexpr double most_void_beside_tip = 1e-3;
 /// counts as far as B_I does. A region without a volume has no extent.
 ///
 /// \param record By pair (PairField): specific volume and plastic strain say what is worn, with the mass what drifted.
+/// \param boundary Whose slip walls show a region its image; none given, none do.
 /// \param shortest_bent_edge Of the cell size; that of bendOf.
 /// \param cut Out. Regions below 1e-6 of their cell's volume have the cell's mean.
 ///

@@ -3,6 +3,7 @@
 #define HARMOS_SLIP_MIRRORS_HPP
 
 #include <Harmos_BoundaryConditions.hpp>
+#include <Harmos_Pack.hpp>
 
 namespace Harmos
 {
@@ -31,17 +32,21 @@ struct MirrorImage
     return x;
   }
 
-  /// Whether the walls are there beside a point, so that it has an image.
-  KOKKOS_INLINE_FUNCTION bool reflects(Vector2 const &x) const
+  /// Whether the walls are there beside a point (x, y), so that it has an image; of points in packs by lanes.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION auto reflects(T const &x, T const &y) const
   {
-    bool beside = true;
+    auto beside = x == x;
     for (int i = 0; i < count; ++i)
     {
-      double const along = dot(x, perpendicular(normal[i]));
-      beside = beside && from[i] <= along && along <= to[i];
+      Vector2 const t = perpendicular(normal[i]);
+      T const along = x * T(t[0]) + y * T(t[1]);
+      beside = both(beside, both(T(from[i]) <= along, along <= T(to[i])));
     }
     return beside;
   }
+
+  KOKKOS_INLINE_FUNCTION bool reflects(Vector2 const &x) const { return reflects(x[0], x[1]); }
 };
 
 /// \brief The mirrors around a cell: slip walls, which are planes of symmetry, and what two of them make at a corner.
