@@ -20,22 +20,26 @@ namespace
 void writeHalf(Mesh const &mesh, NodeMaterialPairs const &dof_nodes, View<double *[2]> const &predicted,
                BodyTable const &bodies, View<double *[2]> const &half)
 {
-  launchCopy(half, predicted);
   if (bodies.body.extent(0) == 0)
+  {
+    launchCopy(half, predicted);
     return;
+  }
   View<int *> const dof_material = dof_nodes.material, dof_node = dof_nodes.node, of_material = bodies.of_material;
   View<RigidBody *> const rigid = bodies.body;
-  RowPointer<double, 2> const position(mesh.node_position), to(half);
+  RowPointer<double, 2> const position(mesh.node_position), from(predicted), to(half);
   launchFor(
       "Harmos::constrain::writeHalf", dof_nodes.num_dof_nodes, KOKKOS_LAMBDA(int dof) {
         int const material = dof_material(dof);
         int const number = material >= 0 ? of_material(material) : -1;
-        if (number < 0)
-          return;
-        RigidBody const &body = rigid(number);
-        Vector2 v = body.velocity;
-        if (body.angular_velocity != 0.0)
-          v = body.velocityAt({position(dof_node(dof), 0), position(dof_node(dof), 1)});
+        Vector2 v{from(dof, 0), from(dof, 1)};
+        if (number >= 0)
+        {
+          RigidBody const &body = rigid(number);
+          v = body.velocity;
+          if (body.angular_velocity != 0.0)
+            v = body.velocityAt({position(dof_node(dof), 0), position(dof_node(dof), 1)});
+        }
         to(dof, 0) = v[0];
         to(dof, 1) = v[1];
       });

@@ -45,8 +45,10 @@ struct CornerFinder
   {
     constexpr double near = 1e-6; // [cells]
     InterfaceSegment const &a = segment(i), &b = segment(j);
+    if (b.material != a.material)
+      return false;
     Vector2 const apart = endOf(b, 1 - side) - endOf(a, side);
-    return b.material == a.material && dot(apart, apart) <= near * near * a.cell_size * a.cell_size;
+    return dot(apart, apart) <= near * near * a.cell_size * a.cell_size;
   }
 
   /// The next segment along the outline, in the same cell or across a face; -1: none.
@@ -124,10 +126,12 @@ struct CornerFinder
     {
       InterfaceSegment const &s = segment(after);
       bool const touching = touchesAnother(after);
-      if (isStep(s) || (!touching && (pieces == 0 || touched) && isLong(after)))
-        return isStep(s) ? -1 : after;
+      if (isStep(s) || (!touching && dot(a.normal, s.normal) > straight))
+        return -1; // the second: the edge itself goes on
+      if (!touching && (pieces == 0 || touched) && isLong(after))
+        return after;
       length += s.length;
-      if (length > longest_tip * a.cell_size || (!touching && dot(a.normal, s.normal) > straight))
+      if (length > longest_tip * a.cell_size)
         return -1;
       visit(after);
       touched = touched || touching;

@@ -58,6 +58,18 @@ KOKKOS_INLINE_FUNCTION Vector2 balancePoint(Geometry geometry, Vector2 const &mi
   return midpoint + (length * length * direction[0] / (12.0 * midpoint[0])) * direction;
 }
 
+/// A half of a segment, with its Gauss point of the whole.
+KOKKOS_INLINE_FUNCTION InterfaceSegment halfOf(InterfaceSegment const &whole, int half)
+{
+  Vector2 const along = (half == 0 ? whole.length : -whole.length) * perpendicular(whole.normal);
+  InterfaceSegment s = whole;
+  s.midpoint = whole.midpoint + 0.25 * along;
+  s.point = whole.midpoint + (0.5 - gauss_point) * along;
+  s.length = 0.5 * whole.length;
+  s.parts = 2;
+  return s;
+}
+
 /// All segments of this rank, ordered by cell and number within the cell (so by key).
 struct InterfaceSegments
 {

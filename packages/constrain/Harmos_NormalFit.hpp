@@ -282,22 +282,40 @@ KOKKOS_INLINE_FUNCTION ParabolaFit fitParabola(FitMoments const &m, double kappa
   return fit;
 }
 
+/// Squared misfits r^2 + spread d^2 of the samples (fitParabola), pack by pack.
+struct SquaredMisfit
+{
+  FitSamples const &sample;
+  FitFrame const &frame;
+  Pack beta, alpha, more_alpha, gamma, more_gamma; // more: of side b
+
+  KOKKOS_INLINE_FUNCTION SquaredMisfit(FitSamples const &samples, FitFrame const &of, ParabolaFit const &fit)
+      : sample(samples), frame(of), beta(fit.beta), alpha(fit.alpha[0]), more_alpha(fit.alpha[1] - fit.alpha[0]),
+        gamma(fit.gamma[0]), more_gamma(fit.gamma[1] - fit.gamma[0])
+  {
+  }
+
+  /// Of samples j and following.
+  KOKKOS_FORCEINLINE_FUNCTION Pack operator()(int j) const
+  {
+    Pack const t = loadPack(frame.t + j), spread = loadPack(frame.spread + j), of_b = loadPack(sample.of_b + j);
+    Pack const curvature = gamma + of_b * more_gamma;
+    Pack const r =
+        loadPack(frame.y + j) - (alpha + of_b * more_alpha) - beta * t - Pack(0.5) * curvature * (t * t + spread);
+    Pack const d = loadPack(frame.slope + j) - beta - curvature * t;
+    return r * r + spread * d * d;
+  }
+};
+
 /// Robust factors omega of the samples in the next pass; returns the weighted sum of their squared misfits.
 KOKKOS_INLINE_FUNCTION double reweigh(FitSamples const &s, ParabolaFit const &fit, FitFrame &frame)
 {
-  Pack const largest = 0.25; // of a squared misfit
-  Pack const beta = fit.beta, one = 1.0;
-  Pack const alpha = fit.alpha[0], more_alpha = fit.alpha[1] - fit.alpha[0];
-  Pack const gamma_a = fit.gamma[0], more_gamma = fit.gamma[1] - fit.gamma[0];
+  SquaredMisfit const squared(s, frame, fit);
+  Pack const largest = 0.25, one = 1.0; // the first of a squared misfit
   Pack misfit = 0.0;
   for (int j = 0; j < s.count; j += pack_width)
   {
-    Pack const t = loadPack(frame.t + j), spread = loadPack(frame.spread + j), of_b = loadPack(s.of_b + j);
-    Pack const gamma = gamma_a + of_b * more_gamma;
-    Pack const r =
-        loadPack(frame.y + j) - (alpha + of_b * more_alpha) - beta * t - Pack(0.5) * gamma * (t * t + spread);
-    Pack const d = loadPack(frame.slope + j) - beta - gamma * t;
-    Pack const e2 = select(Pack(0.0) < loadPack(frame.taken + j), r * r + spread * d * d, largest);
+    Pack const e2 = select(Pack(0.0) < loadPack(frame.taken + j), squared(j), largest);
     storePack(frame.omega + j, one / (one + e2 * Pack(1.0 / (0.025 * 0.025))));
     misfit += loadPack(s.weight + j) * Math::min(e2, largest);
   }
@@ -374,16 +392,16 @@ KOKKOS_INLINE_FUNCTION bool isFace(FitSamples const &samples, Vector2 const &n, 
 {
   constexpr double least_weight = 1.0, most_miss = 3e-3, most_off = 0.01, ridge = 0.1;
   ParabolaFit const fit = fitParabola(fitMoments(samples, n, false, frame), ridge);
-  double taken = 0.0, off = 0.0;
-  for (int j = 0; j < samples.count; ++j)
+  SquaredMisfit const squared(samples, frame, fit);
+  Pack const most = most_miss * most_miss, zero = 0.0;
+  Pack all = zero, beside = zero;
+  for (int j = 0; j < samples.count; j += pack_width)
   {
-    int const side = samples.of_b[j] > 0.5 ? 1 : 0;
-    double const t = frame.t[j], alpha = fit.alpha[side], gamma = fit.gamma[side];
-    double const r = frame.y[j] - alpha - fit.beta * t - 0.5 * gamma * (t * t + frame.spread[j]);
-    double const d = frame.slope[j] - fit.beta - gamma * t, weight = samples.weight[j] * frame.taken[j];
-    taken += weight;
-    off += r * r + frame.spread[j] * d * d > most_miss * most_miss ? weight : 0.0;
+    Pack const weight = loadPack(samples.weight + j) * loadPack(frame.taken + j);
+    all += weight;
+    beside += select(most < squared(j), weight, zero);
   }
+  double const taken = laneSum(all), off = laneSum(beside);
   return taken >= least_weight && off <= most_off * taken;
 }
 

@@ -80,11 +80,17 @@ struct RowBuilder
     return fullness(mesh, pairs, regions, cell, [this](int material) { return bearing.presses(material); });
   }
 
+  /// Whether a segment carries a row for its length, whatever it faces.
+  KOKKOS_INLINE_FUNCTION bool isLong(InterfaceSegment const &a) const
+  {
+    return a.parts * a.length >= options.shortest_segment * a.cell_size;
+  }
+
   /// Whether segment a, which faces b, carries no row for its length. Where tractions are shared its own goes to the
   /// rows at its ends, but where bodies pass each other: what lies still wants few rows, what goes through wants many.
   KOKKOS_INLINE_FUNCTION bool isTooShort(InterfaceSegment const &a, InterfaceSegment const &b) const
   {
-    if (a.parts * a.length >= options.shortest_segment * a.cell_size)
+    if (isLong(a))
       return false;
     return a.parts * a.length < bearing.shortest(a, b, fullnessOf(a.cell)) &&
            !(bearing.balance(a, b) == ShortSegments::Shared && pass(a, b));
@@ -166,13 +172,6 @@ struct RowBuilder
     return sideMotion(mesh, pairs, before, s);
   }
 
-  /// Speed at which a point of side a approaches the point of side b that lies `gap` away along a's normal.
-  static KOKKOS_INLINE_FUNCTION double closing(SideMotion const &a, SideMotion const &b, Vector2 const &normal,
-                                               Vector2 const &point, double gap)
-  {
-    return dot(normal, a.at(point) - b.at(point + gap * normal));
-  }
-
   /// Whether in this step an end of a segment would go through what it faces while its middle is held.
   KOKKOS_INLINE_FUNCTION bool endGoesThrough(InterfaceSegment const &a, RayHit const &to) const
   {
@@ -187,10 +186,10 @@ struct RowBuilder
     {
       Vector2 const end = a.midpoint + (side * a.length) * perpendicular(a.normal);
       double const gap = dot(b.midpoint - end, b.normal) / slope; // to the line of b
-      double const comes = dt * closing(of_a, of_b, a.normal, end, gap);
+      double const comes = dt * closingSpeed(of_a, of_b, a.normal, end, gap);
       if (comes <= most_approach * a.cell_size)
         continue;
-      double const middle = dt * closing(of_a, of_b, a.normal, a.midpoint, to.gap);
+      double const middle = dt * closingSpeed(of_a, of_b, a.normal, a.midpoint, to.gap);
       if ((to.gap - gap) + (comes - middle) > least_lead * a.cell_size)
         return true;
     }
@@ -213,18 +212,6 @@ struct RowBuilder
     if (touchingLength(facing, mirrors, a, b.material) > few)
       return to;
     return {to.segment, Math::max(to.gap, h * curvedGap(bins, mirrors, a, b.material, normal)), to.cosine};
-  }
-
-  /// A half of a segment, with its Gauss point of the whole.
-  static KOKKOS_INLINE_FUNCTION InterfaceSegment halfOf(InterfaceSegment const &whole, int half)
-  {
-    Vector2 const along = (half == 0 ? whole.length : -whole.length) * perpendicular(whole.normal);
-    InterfaceSegment s = whole;
-    s.midpoint = whole.midpoint + 0.25 * along;
-    s.point = whole.midpoint + (0.5 - gauss_point) * along;
-    s.length = 0.5 * whole.length;
-    s.parts = 2;
-    return s;
   }
 
   KOKKOS_INLINE_FUNCTION void plan(int i, PlannedRows &rows) const
@@ -383,8 +370,8 @@ struct RowBuilder
       int const cell = beyond / 4;
       for (int i = segments.firstOf(cell); i < segments.count && segment(i).cell == cell; ++i)
       {
-        if (segment(i).material != a.material || hit(i).segment < 0)
-          continue;
+        if (segment(i).material != a.material || hit(i).segment < 0 || isLong(segment(i)))
+          continue; // no line is shorter than one of its pieces
         JoinedSegments::Line line;
         InterfaceSegment const &s = joinedSegments().find(i, line) ? line.whole : segment(i);
         InterfaceSegment const &faced = segment(hit(i).segment);
@@ -409,7 +396,7 @@ struct RowBuilder
     double const full = fullnessOf(a.cell);
     double const part = balance == ShortSegments::Kept ? 1.0 : full;
     Vector2 const half = (0.5 * a.length) * perpendicular(a.normal);
-    bool const bends = a.parts * a.length >= options.shortest_segment * a.cell_size;
+    bool const bends = isLong(a);
     if (a.parts == 1 || bends) // halves of a bent segment have its middle as an end
     {
       found.middle = a.point + part * (a.midpoint - a.point);

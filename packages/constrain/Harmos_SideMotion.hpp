@@ -64,6 +64,13 @@ KOKKOS_INLINE_FUNCTION double closedInStep(double gap, double way, double cell_s
   return Math::min(gap, Math::max(way, 0.0) + part * gap);
 }
 
+/// Speed at which a point of side a approaches the point of side b that lies `gap` away along a's normal.
+KOKKOS_INLINE_FUNCTION double closingSpeed(SideMotion const &a, SideMotion const &b, Vector2 const &normal,
+                                           Vector2 const &point, double gap)
+{
+  return dot(normal, a.at(point) - b.at(point + gap * normal));
+}
+
 /// Bound of the speed at which a point of one side approaches the other along a normal, for deformable sides and points
 /// within 1.5 cells of their cells: the absolute values of shape functions add to at most 16 there.
 KOKKOS_INLINE_FUNCTION double mostClosing(SideMotion const &a, SideMotion const &b, Vector2 const &normal)
