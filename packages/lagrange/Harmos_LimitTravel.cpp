@@ -341,8 +341,9 @@ SlowSums slowMarked(SlowLight const &slow, View<double *[2]> const &initial, Lag
   return result;
 }
 
-/// Below this ratio (dt |v| of half an altitude) no two nodes of a cell can pass each other.
-constexpr double least_folding_ratio = 0.5 / largest_part_of_altitude;
+/// Below this ratio (dt |v| of a quarter of an altitude) no cell folds: its corners are half an altitude at least from
+/// the line through both beside them, and both sides go.
+constexpr double least_folding_ratio = 0.25 / largest_part_of_altitude;
 
 /// The ratio, or two where the step would fold an owned deformable pair's cell, so that it is repeated with half.
 double withFolding(double ratio, SlowLight const &slow)

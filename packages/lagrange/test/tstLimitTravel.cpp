@@ -199,3 +199,27 @@ TEST(LimitTravel, NodesThatWouldPassEachOther_askForAShorterStep)
   Kokkos::deep_copy(s.work.half, s.state.velocity);
   EXPECT_LT(limit(s, 0.2).largest_ratio, 0.7); // 0.6, all the same way
 }
+
+TEST(LimitTravel, CornerThatWouldPassTheDiagonal_asksForAShorterStep)
+{
+  Scene s = makeScene(3, 3, 0.0, {elastic()}, [](int, int) { return std::vector<Fill>{{0, 1.0}}; });
+  auto const set = [&](double speed)
+  {
+    double const along = speed / std::sqrt(2.0);
+    s.setVelocity(
+        [=](int, Vector2 x)
+        {
+          if (x[0] > 1.5 && x[0] < 2.5 && x[1] > 0.5 && x[1] < 1.5)
+            return Vector2{-along, along}; // corner (2, 1) of the middle cell, towards (1, 2)
+          bool const beside = x[0] > 0.5 && x[0] < 2.5 && x[1] > 0.5 && x[1] < 2.5;
+          return beside ? Vector2{along, -along} : Vector2{0.0, 0.0};
+        });
+    Kokkos::deep_copy(s.work.half, s.state.velocity);
+    Kokkos::deep_copy(s.work.predicted, s.state.velocity);
+  };
+  // The diagonal is 0.707 away.
+  set(0.36);
+  EXPECT_GT(limit(s, 1.0).largest_ratio, 1.0);
+  set(0.35);
+  EXPECT_LT(limit(s, 1.0).largest_ratio, 0.4);
+}
