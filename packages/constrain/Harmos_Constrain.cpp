@@ -255,6 +255,7 @@ ConstraintReport constrainVelocities(Mesh const &mesh, CellMaterialPairs const &
           explicitImpulses({mesh, pairs, before, stress.cauchy}, system, rows, dt, kick, options, exchange, arrays);
     else
       goes_on = solveWithRebound(mesh, system, rows, before, after, dt, options, exchange, last, arrays, solution);
+    dropIdleImpulses(system, solution.impulse);
     sumBondLoads(system, rows, solution.impulse, exchange, report.bond_load, arrays);
   } while (goes_on && snapRigidBonds(rows, bodies, bonds, options, kick, report.bond_load));
   report.iterations = solution.iterations;

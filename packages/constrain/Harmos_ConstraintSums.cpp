@@ -84,13 +84,7 @@ View<RemovedImpulse *> removedImpulses(ContactSystem const &s, RowWorker const &
         int const dof = s.dof_node(i);
         if (s.condition(i).count == 0 || !mesh.node_owned(dof_nodes.node(dof)))
           return;
-        Vector2 f{0.0, 0.0};
-        for (int e = s.rows_of.offset(i); e < s.rows_of.offset(i + 1); ++e)
-        {
-          int const row = s.rows_of.item(e) / 8;
-          Vector2 const n = s.row(row).normal;
-          f += s.weight(row, s.rows_of.item(e) % 8) * (p(row, 0) * n + p(row, 1) * perpendicular(n));
-        }
+        Vector2 f = impulseOn(s, p, i);
         f -= s.condition(i).project(f);
         removed(i) = {f, dot(f, worker.meanVelocity(i))};
       });

@@ -156,7 +156,7 @@ KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Mo
   return relative + row.restitution * start + (1.0 - row.restitution) * back;
 }
 
-/// Rows of which less can move along n ask for nothing (bonded ones across it neither): a splinter between a driven
+/// Rows of which less can move along n ask for nothing (bonded ones have no impulse along n, or across it): a splinter between a driven
 /// body and a wall of the mesh a thousandth of a cell behind would have to move nodes at a thousand times the body's
 /// speed, and further than their cells reach.
 constexpr double least_movable_part = 1e-3;
@@ -165,7 +165,7 @@ constexpr double least_movable_part = 1e-3;
 /// node conditions hold; none for driven bodies and walls, and of a free one about an axis what moves it along that.
 KOKKOS_INLINE_FUNCTION double movablePart(ContactSystem const &s, ContactRow const &row, int i, int k)
 {
-  Vector2 const d = s.direction(i, k);
+  Vector2 const d = s.axis(i, k);
   double part = 0.0;
   for (int side = 0; side < 2; ++side)
   {
@@ -198,6 +198,7 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         out.tied = r.tied;
         out.friction = r.friction;
         out.normal = r.normal;
+        out.idle[0] = out.idle[1] = false;
         out.diagonal[0] = out.diagonal[1] = out.compliance[0] = out.compliance[1] = 0.0;
         for (int side = 0; side < 2; ++side)
         {
@@ -222,6 +223,7 @@ void fillRows(ContactRows const &rows, Motion const &before, Motion const &predi
         for (int k = 0; k < (r.tied ? 2 : 1); ++k) // what slides across n is rubbed on, whether it gives way or not
           if (movablePart(s, r, i, k) < least_movable_part)
           {
+            out.idle[k] = r.tied;
             out.predicted[k] = r.tied ? 0.0 : Math::max(0.0, out.predicted[k]);
             out.opening = k == 0 ? 0.0 : out.opening;
           }
@@ -251,7 +253,8 @@ KOKKOS_INLINE_FUNCTION double reachOf(ContactSystem const &s, int dof, Vector2 c
 /// \param if_alike Out: the sum if both sides moved as little as the heavier one; where one of them moves, its own.
 KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, double &if_alike)
 {
-  Vector2 const d = s.direction(row, k);
+  Vector2 const d = s.axis(row, k);
+  bool const idle = s.row(row).idle[k];
   double sum = 0.0, unconditioned = 0.0, of_side[2] = {0.0, 0.0};
   for (int c = 0; c < 8; ++c)
   {
@@ -260,7 +263,7 @@ KOKKOS_INLINE_FUNCTION double rowSum(ContactSystem const &s, int row, int k, dou
       continue;
     NodeCondition const &condition = s.condition(dof);
     double const part = Math::fabs(s.weight(row, c)) * s.inverse_mass(dof), at_free_dof = reachOf(s, dof, d);
-    double const at_dof = condition.count == 0 ? at_free_dof : reachOf(s, dof, condition.project(d));
+    double const at_dof = idle ? 0.0 : condition.count == 0 ? at_free_dof : reachOf(s, dof, condition.project(d));
     sum += part * at_dof;
     of_side[c / 4] += part * at_dof;
     unconditioned += part * at_free_dof;
@@ -352,16 +355,20 @@ void velocityChange(ContactSystem const &system, View<double *[2]> const &impuls
   ContactSystem const s = system;
   launchFor(
       "Harmos::constrain::velocityChange", s.num_dofs, KOKKOS_LAMBDA(int i) {
-        Vector2 f{0.0, 0.0};
-        for (int e = s.rows_of.offset(i); e < s.rows_of.offset(i + 1); ++e)
-        {
-          int const row = s.rows_of.item(e) / 8;
-          Vector2 const n = s.row(row).normal;
-          f += s.weight(row, s.rows_of.item(e) % 8) * (impulse(row, 0) * n + impulse(row, 1) * perpendicular(n));
-        }
-        f = s.condition(i).project(f);
+        Vector2 const f = s.condition(i).project(impulseOn(s, impulse, i));
         change(i, 0) = s.inverse_mass(i) * f[0];
         change(i, 1) = s.inverse_mass(i) * f[1];
+      });
+}
+
+void dropIdleImpulses(ContactSystem const &system, View<double *[2]> const &impulse)
+{
+  ContactSystem const s = system;
+  launchFor(
+      "Harmos::constrain::dropIdleImpulses", s.num_rows, KOKKOS_LAMBDA(int i) {
+        for (int k = 0; k < 2; ++k)
+          if (s.row(i).idle[k])
+            impulse(i, k) = 0.0;
       });
 }
 

@@ -46,6 +46,7 @@ struct SystemRow
 {
   bool tied;
   bool struck;     // b by the law of impact
+  bool idle[2];    // a tied direction that asks for nothing: no impulse along it acts
   double friction; // coefficient
   Vector2 normal;
   int dof[8];           // compact dof of side a's corners (0..3) and b's (4..7), -1: none
@@ -71,8 +72,10 @@ enum class RowScale
 /// A row has two directions, d(row, 0) = n and, where tied or rubbing, d(row, 1) = perpendicular(n), and an impulse p
 /// for each. Velocities are v = v* + M^-1 P G^T p; residuals r = b + G (v - v*) + C p, b = G v* + max(gap, 0)/dt
 /// (tied: no gap), C the compliances of the rows; where node conditions, driven bodies and walls leave less than a
-/// thousandth of the row's velocity along n to move, b is at least zero there (tied: zero, across n too). Dof nodes that rows touch
-/// are numbered compactly; rows_of gathers in key order.
+/// thousandth of the row's velocity along n to move, b is at least zero there. A tied row does without such a
+/// direction, n or the other: an impulse along it that only kept what others do there at nothing would work with the
+/// velocity that is left, and may give energy. Dof nodes that rows touch are numbered compactly; rows_of gathers in key
+/// order.
 struct ContactSystem
 {
   int num_rows = 0; // with the halo's
@@ -102,9 +105,16 @@ struct ContactSystem
   KOKKOS_INLINE_FUNCTION int freeBody(int r, int side) const { return row(r).free_body[side]; }
   KOKKOS_INLINE_FUNCTION int directions(int r) const { return tied(r) || friction(r) > 0.0 ? 2 : 1; }
 
-  KOKKOS_INLINE_FUNCTION Vector2 direction(int r, int k) const
+  /// Unit vector: n, or across it.
+  KOKKOS_INLINE_FUNCTION Vector2 axis(int r, int k) const
   {
     return k == 0 ? row(r).normal : perpendicular(row(r).normal);
+  }
+
+  /// Along which the row's impulse k acts; zero where that is idle.
+  KOKKOS_INLINE_FUNCTION Vector2 direction(int r, int k) const
+  {
+    return row(r).idle[k] ? Vector2{0.0, 0.0} : axis(r, k);
   }
 
   /// \param reach Largest |impulse| across n by friction.
@@ -124,6 +134,19 @@ struct ContactSystem
     return sign * (c < 2 ? d[c] : cross(row(r).arm[side], d));
   }
 };
+
+/// Impulse of all rows on compact dof i, before its node condition.
+KOKKOS_INLINE_FUNCTION Vector2 impulseOn(ContactSystem const &s, View<double *[2]> const &impulse, int i)
+{
+  Vector2 sum{0.0, 0.0};
+  for (int e = s.rows_of.offset(i); e < s.rows_of.offset(i + 1); ++e)
+  {
+    int const row = s.rows_of.item(e) / 8;
+    Vector2 const along = impulse(row, 0) * s.direction(row, 0), across = impulse(row, 1) * s.direction(row, 1);
+    sum += s.weight(row, s.rows_of.item(e) % 8) * (along + across);
+  }
+  return sum;
+}
 
 /// v_b - v_a at a row's point.
 KOKKOS_INLINE_FUNCTION Vector2 relativeVelocity(ContactRow const &row, View<double *[2]> const &velocity,
@@ -181,6 +204,10 @@ bool reboundWhereStruck(ContactRows const &rows, Motion const &before, Motion co
 /// Change of the dof velocities by impulses: M^-1 P G^T p. [m/s]
 /// \param impulse num_rows (halo rows included); \param change num_dofs
 void velocityChange(ContactSystem const &system, View<double *[2]> const &impulse, View<double *[2]> const &change);
+
+/// What the sums of the rows' impulses are not to count: impulses along idle directions are zero afterwards.
+/// \param impulse num_rows
+void dropIdleImpulses(ContactSystem const &system, View<double *[2]> const &impulse);
 
 /// Change of the free bodies' velocities (Vx, Vy, omega) by impulses of all ranks' rows; the same bits on every rank.
 /// \param change num_free. Collective when num_free > 0.

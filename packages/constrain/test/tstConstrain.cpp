@@ -300,6 +300,29 @@ TEST(Constrain, tiedRowsThatAskForTheSame_bearNoMoreThanTheBond)
   EXPECT_LE(std::fabs(report.contact_loss), 8.0 * V * most);
 }
 
+// A film along a slip wall, hardly tilted: its bond has next to nothing to move across the film, and does without.
+TEST(Constrain, tiedFilmAtAWall_isGivenNoEnergy)
+{
+  for (double const tilt : {1e-5, -1e-5})
+    for (double const shear : {V, -V})
+    {
+      double const a = 2e-5, b = a + 3.0 * tilt, far = 4e-5 - std::min(tilt, 0.0);
+      TinyScene scene(rectilinearMesh(uniform(3, 3), uniform(3, 3)),
+                      {polygonBody(0, {{0, 0}, {far + a, 0}, {far + b, 3}, {0, 3}}),
+                       polygonBody(1, {{far + a, 0}, {3, 0}, {3, 3}, {far + b, 3}})},
+                      2, {BoundaryKind::SlipWall, BoundaryKind::Outflow, BoundaryKind::Outflow, BoundaryKind::Outflow});
+      scene.setInteraction(0, 1, {Interaction::Bonded, 0.0, 0.0, {}});
+      scene.setVelocity(
+          [shear](int material, Vector2 const &x) {
+            return material == 0 ? Vector2{20.0 * V * x[0] * x[1], shear * x[1]} : Vector2{0.0, 0.0};
+          });
+      ConstraintReport const report = scene.constrain();
+      EXPECT_TRUE(report.converged) << report.residual;
+      expectMomentumAndEnergy(scene, report);
+      EXPECT_GT(report.contact_loss, 0.0);
+    }
+}
+
 // Slip walls at both ends take 0.4 of the impulse on block 0 and 0.3 of that on block 1: an external impulse of 0.1.
 TEST(Constrain, nodeConditions_takeTheirPartAsExternalImpulse)
 {
