@@ -156,9 +156,9 @@ KOKKOS_INLINE_FUNCTION double rebound(ContactRow const &row, double relative, Mo
   return relative + row.restitution * start + (1.0 - row.restitution) * back;
 }
 
-/// Rows of which less can move along n ask for nothing (bonded ones have no impulse along n, or across it): a splinter between a driven
-/// body and a wall of the mesh a thousandth of a cell behind would have to move nodes at a thousand times the body's
-/// speed, and further than their cells reach.
+/// Rows of which less can move along n ask for nothing (bonded ones have no impulse along n, or across it): a splinter
+/// between a driven body and a wall of the mesh a thousandth of a cell behind would have to move nodes at a thousand
+/// times the body's speed, and further than their cells reach.
 constexpr double least_movable_part = 1e-3;
 
 /// How much of a row's velocity along direction k its own nodes and bodies can change: for each side one, less what
