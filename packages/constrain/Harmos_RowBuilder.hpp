@@ -155,16 +155,13 @@ struct RowBuilder
     return a.face >= 0 && dot(a.normal, exactNormal(a, b)) >= along;
   }
 
-  /// Whether a segment of a cell face lies along an interface that follows the mesh there, and is no step: then it has
-  /// a row however small a part of the face it is; and however short at walls, edges and between fluids (beside round
-  /// solids short ones would be too many, and gas stick to them). \param n The row's normal.
-  KOKKOS_INLINE_FUNCTION bool liesOnFace(InterfaceSegment const &a, InterfaceSegment const &b, Vector2 const &n,
-                                         bool is_short) const
+  /// Whether a segment of a cell face has a row, however small a part of the face it is, where it lies along an
+  /// interface that follows the mesh there, and is no step; and however short at walls, edges and between fluids
+  /// (beside round solids short ones would be too many, and gas stick to them).
+  KOKKOS_INLINE_FUNCTION bool mayLieOnFace(InterfaceSegment const &a, InterfaceSegment const &b, bool is_short) const
   {
-    constexpr double along = 0.99; // cosine
     bool const of_a = bearing.isPressed(a), of_b = bearing.isPressed(b);
-    return a.face >= 0 && dot(a.normal, n) >= along &&
-           (liesOnEdge(a, b) || (of_a && of_b) || (!is_short && (of_a || of_b)));
+    return a.face >= 0 && ((of_a && of_b) || (!is_short && (of_a || of_b)) || liesOnEdge(a, b));
   }
 
   KOKKOS_INLINE_FUNCTION SideMotion motionOf(InterfaceSegment const &s) const
@@ -262,13 +259,13 @@ struct RowBuilder
   KOKKOS_INLINE_FUNCTION void planAlong(InterfaceSegment const &a, RayHit const &to, int i, PlannedRows &rows) const
   {
     InterfaceSegment const &b = segment(to.segment);
-    bool const too_short = isTooShort(a, b);
-    if (too_short && a.face < 0)
+    constexpr double along = 0.99; // cosine
+    bool const too_short = isTooShort(a, b), on_face = too_short || exposesLittle(a, options.exposed_face);
+    if (on_face && !mayLieOnFace(a, b, too_short))
       return;
     rows.hit[0] = to;
     Vector2 const n = rows.normal[0] = rowNormal(a, to.segment);
-    if ((n[0] == 0.0 && n[1] == 0.0) ||
-        ((too_short || exposesLittle(a, options.exposed_face)) && !liesOnFace(a, b, n, too_short)))
+    if ((n[0] == 0.0 && n[1] == 0.0) || (on_face && dot(a.normal, n) < along))
       return;
     rows.count = 1;
     if (endGoesThrough(a, to))
