@@ -97,7 +97,7 @@ def closed(name, r):
 
 def test_scenes_that_once_broke_keep_their_ledgers():
     for name in ("bond_on_the_axis", "bond_at_segment_ends", "splinter_at_a_wall", "gas_at_a_wall", "driven_at_a_contact_wall",
-                 "driven_through_a_wall", "splinter_at_a_fixed_body"):
+                 "driven_through_a_wall", "splinter_at_a_fixed_body", "gas_bonded_at_a_corner"):
         r = harmos(DECKS / f"{name}.yaml", QUIET)
         closed(name, r)
         check(f"{name}: unconverged cycles", r.summary["unconverged_cycles"], 0)
